@@ -1,5 +1,5 @@
-// Two groups of four floats for processors whose registers do not hold both. The file is included inside an
-// instruction set's namespace, after its Four.
+// Two groups of four floats, for processors whose registers cannot hold both. Include this file inside the
+// namespace of an instruction set, after the definition of Four.
 
 struct Eight {
   Four a, b;
@@ -23,8 +23,7 @@ inline void store(float* p, Eight x) {
 inline Eight operator*(Eight x, Eight y) {
   return {x.a * y.a, x.b * y.b};
 }
-// Returns the product of the first two plus the third. A function named fma would hide the fma of plain
-// floats.
+// Returns x * y + z. The function is not named fma, because it would hide the fma of plain floats.
 inline Eight product_plus(Eight x, Eight y, Eight z) {
   return {x.a * y.a + z.a, x.b * y.b + z.b};
 }

@@ -1,5 +1,5 @@
-// Two groups of four floats in one register of AVX. The file is included inside an instruction set's
-// namespace.
+// Two groups of four floats in one AVX register. Include this file inside the namespace of an instruction
+// set.
 
 struct Eight {
   __m256 v;
@@ -22,8 +22,7 @@ inline void store(float* p, Eight a) {
 inline Eight operator*(Eight a, Eight b) {
   return _mm256_mul_ps(a.v, b.v);
 }
-// Returns the product of the first two plus the third. A function named fma would hide the fma of plain
-// floats.
+// Returns a * b + c. The function is not named fma, because it would hide the fma of plain floats.
 inline Eight product_plus(Eight a, Eight b, Eight c) {
   return _mm256_fmadd_ps(a.v, b.v, c.v);
 }

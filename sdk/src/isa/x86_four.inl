@@ -1,5 +1,5 @@
-// Four floats for the transforms of x86-64, with FMA if the instruction set has it. The file is included
-// inside an instruction set's namespace.
+// Four floats for the pose kernels on x86-64, with FMA if the instruction set has it. Include this file
+// inside the namespace of an instruction set.
 
 struct Four {
   __m128 v;
@@ -27,7 +27,7 @@ inline Four operator/(Four a, Four b) {
   return _mm_div_ps(a.v, b.v);
 }
 inline Four fma(Four a, Four b, Four c) {
-#if defined(__FMA__) || defined(__AVX2__)  // MSVC, which has no __FMA__, takes both together
+#if defined(__FMA__) || defined(__AVX2__)  // MSVC does not define __FMA__; its option for AVX2 includes FMA
   return _mm_fmadd_ps(a.v, b.v, c.v);
 #else
   return a * b + c;

@@ -13,12 +13,13 @@ float squared(Vec3 a) {
   return dot(a, a);
 }
 
-// The mean over directions of the projected area of a convex body is a quarter of its surface (Cauchy).
+// Returns the projected area of a capsule, averaged over all directions. For a convex body, this is a quarter
+// of its surface area (Cauchy).
 float projected_area(float radius, float length) {
   return pi * radius * (0.5f * length + radius);
 }
 
-// Rows of a symmetric matrix.
+// A symmetric matrix, stored by rows.
 struct Spread {
   Vec3 x, y, z;
   Vec3 times(Vec3 v) const { return {dot(x, v), dot(y, v), dot(z, v)}; }
@@ -89,17 +90,19 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
         axis = v;
       }
   }
-  // Uses the power method, from the longest step between casters or along one.
+  // Finds the longest axis with the power method. The start vector is the longest one among the casters' own
+  // axes and twice the casters' offsets from the centre.
   axis = normalised(axis);
   for (int step = 0; step < 6; ++step) {
     const Vec3 next = spread.times(axis);
     if (!(squared(next) > 1e-20f)) break;
     axis = normalised(next);
   }
-  // The variance along the axis in excess of the variance across it is a segment's variance.
+  // The variance along the axis, minus the variance across it, is the variance of a segment.
   const float along2 = dot(axis, spread.times(axis)), across2 = 0.5f * (spread.trace() - along2);
-  // A bent part has a segment longer than itself. The capsule ends where the casters do and keeps their
-  // centre, so that it does not reach through the surface that they stand on.
+  // For a bent part, this segment is longer than the part itself. So the segment is shortened until the
+  // capsule ends where the casters end, and the capsule keeps the casters' centre. Otherwise the capsule
+  // would reach through the surface on which the casters stand.
   float reach_below = 0, reach_above = 0;
   for (const std::uint8_t i : order) {
     const PosedCaster& c = casters[i];
@@ -113,7 +116,8 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
     return 0.5f * (std::sqrt(0.25f * length * length + 4 * area / pi) - 0.5f * length);
   };
   float extent = std::sqrt(12 * std::max(along2 - across2, 0.0f));
-  // A shorter segment has a larger radius, which shortens it again.
+  // A shorter segment needs a larger radius, and a larger radius shortens the segment again. So a few
+  // iterations are needed.
   for (int step = 0; step < 3; ++step)
     extent = std::min(extent, 2 * std::max(reach - radius_of_length(extent), 0.0f));
   const float radius = radius_of_length(extent);
@@ -123,8 +127,8 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
 
 float merging_distance(float strength, float radius, float error_ao) {
   if (!(error_ao > 0)) return 1e15f;
-  // The difference falls with the fourth power of the distance. The test of this file measured the factor on
-  // bodies.
+  // The difference decreases with the fourth power of the distance. The factor 0.1 was measured on bodies by
+  // the test of this file.
   const float far = std::sqrt(std::sqrt(0.1f * strength * radius * radius / error_ao));
   return std::max(far, 1.2f * radius);
 }

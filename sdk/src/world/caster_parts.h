@@ -1,5 +1,5 @@
-// Splits a body into parts, such as limbs, and merges the casters of a part or body into one capsule, which
-// stands for them at a distance.
+// Splits a body into parts, such as limbs. Also merges the casters of a part or of a whole body into one
+// capsule, which replaces them at a distance.
 #pragma once
 
 #include <array>
@@ -13,25 +13,26 @@ namespace nook::world {
 
 inline constexpr std::uint32_t max_part_casters = 64, max_parts = NOOK_MAX_PARTS;
 
-// Casters that stand near each other in rest space. Part p has the casters order[first[p]] to
-// order[first[p + 1] - 1].
+// The parts of a body. The casters of a part are near each other in rest space. Part p consists of the
+// casters order[first[p]] to order[first[p + 1] - 1].
 struct CasterParts {
   std::uint32_t count = 0;
   std::array<std::uint8_t, max_parts + 1> first{};
   std::array<std::uint8_t, max_part_casters> order{};
 };
 
-// Makes parts with five casters on average. middle: centres of at most max_part_casters casters. The parts'
-// first casters are as far from each other as possible (Gonzalez 1985).
+// Makes parts of five casters on average. `middle` holds the centres of the casters, at most max_part_casters
+// of them. The first casters of the parts are chosen as far from each other as possible (Gonzalez 1985).
 CasterParts parts_of(std::span<const Vec3> middle);
 
-// Returns one capsule, with its radii for AO, for the casters that `order` picks. It has their mean projected
-// area, their centre and their longest axis.
+// Returns one capsule, with radii for AO, that replaces the casters with the indices in `order`. The capsule
+// has the same mean projected area, the same centre and the same longest axis as these casters together.
 Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_t> order);
 
-// Returns the distance in metres from its centre at which the merged capsule may stand for its casters.
-// There, the rms difference over directions and normals is about error_ao. strength: the casters'
-// caster_strength. radius: of a sphere around them.
+// Returns the distance in metres from the centre of the merged capsule from which on the capsule may replace
+// its casters. At this distance, the RMS difference in AO over directions and normals is about error_ao.
+// `strength` is the sum of the casters' caster_strength. `radius` is the radius of a sphere around the
+// casters.
 float merging_distance(float strength, float radius, float error_ao);
 
 }  // namespace nook::world

@@ -1,13 +1,15 @@
-// The share of a cone of directions that a capsule hides, such as the cone of a sun or a lamp.
+// The share of a cone of directions that is hidden by capsules. The cone is, for example, the light of a sun
+// or a lamp.
 //
-// A cone is cut into `cone_parts` cones of equal solid angle, whose axes lie on two rings. Look at the plane
-// across a part's axis, at unit distance and in units of the part's radius. There the part is the unit disc
-// and a capsule the hull of two discs. If the capsule is wider than the part, the part's share is the share
-// of a disc beyond a line at the distance of the capsule's round edge. If it is narrower, the capsule counts
-// as a rectangle of the same area, and the share is the product of the shares along and across it. Overlap
-// works as follows: in each part, the product of what the capsules leave open counts, as if they covered it
-// independently. The cone's share is the mean over its parts. So capsules that cover different parts add up,
-// and capsules that fully cover the same part do not darken it twice.
+// The cone is divided into `cone_parts` smaller cones (parts) of equal solid angle, whose axes lie on two
+// rings. Consider the plane at unit distance that is perpendicular to the axis of a part, in units of the
+// part's radius. In this plane, the part is the unit disc, and a capsule is the convex hull of two discs. If
+// the capsule is wider than the part, it is treated as the half-plane beyond a line that is as far away as
+// the capsule's round edge. If the capsule is narrower, it is treated as a rectangle of the same area, and
+// its share is the product of the shares along and across it. In each part, the open shares of all capsules
+// are multiplied together, as if the capsules covered the part independently. The open share of the cone is
+// the mean over its parts. So the shares of capsules that cover different parts add up, and capsules that
+// fully cover the same part do not darken it twice.
 #pragma once
 
 #include <cmath>
@@ -19,14 +21,14 @@
 namespace nook::world {
 
 inline constexpr int cone_parts = NOOK_CONE_PARTS;
-inline constexpr int inner_parts = 5;  // on the inner ring
+inline constexpr int inner_parts = 5;  // number of parts on the inner ring
 
 struct ConeParts {
-  Vec3 axis[cone_parts];  // unit, towards the light
+  Vec3 axis[cone_parts];  // unit vector towards the light
   float slope = 0;        // the tangent of a part's half angle
 };
 
-// axis: unit, towards the light. half_angle_radians: above 0, below pi / 2.
+// `axis` must be a unit vector towards the light. half_angle_radians must be above 0 and below pi / 2.
 inline ConeParts cone_parts_of(Vec3 axis, float half_angle_radians) {
   const float sign = std::copysign(1.0f, axis.z), p = -1 / (sign + axis.z), q = axis.x * axis.y * p;
   const Vec3 x{1 + sign * axis.x * axis.x * p, sign * q, -sign * axis.x};  // Duff et al. 2017
@@ -34,9 +36,9 @@ inline ConeParts cone_parts_of(Vec3 axis, float half_angle_radians) {
   const double versine = 2 * std::pow(std::sin(0.5 * double(half_angle_radians)), 2);
   ConeParts parts;
   for (int i = 0; i < cone_parts; ++i) {
-    // The radii are chosen so that the penumbra of a straight edge is within 0.012 of the disc's segment, for
-    // every direction of the edge. On a spiral of 16 parts (Vogel 1979) it is off by 0.043, which shows as
-    // bands.
+    // The radii of the rings are chosen so that the penumbra of a straight edge differs by at most 0.012 from
+    // the exact disc segment, for every direction of the edge. With 16 parts on a spiral (Vogel 1979), the
+    // difference is 0.043, which is visible as bands.
     const bool inner = i < inner_parts;
     const double radius = inner ? 0.35 : 0.79, w = versine * radius * radius;
     const double angle =
@@ -51,22 +53,23 @@ inline ConeParts cone_parts_of(Vec3 axis, float half_angle_radians) {
   return parts;
 }
 
-// Returns the share of a unit disc beyond a line at the signed distance s. It is within 0.008 of the exact
-// circular segment, and has the slope of the segment at the middle.
+// Returns the share of a unit disc beyond a line at the signed distance s. The error against the exact
+// circular segment is at most 0.008, and the slope at the middle is exact.
 template <class F>
 F share_beyond(F s) {
   const F x = min(max(s, F(-1.0f)), F(1.0f));
   return fma(x, fma(x * x, F(float(NOOK_SEGMENT_3)), F(float(NOOK_SEGMENT_1))), F(0.5f));
 }
 
-// Returns the share of one part in [0, 1]; the receiver is at the origin. 0 if a number is NaN.
+// Returns the share of one part that a capsule hides, in [0, 1]. The receiver is at the origin. If a value is
+// NaN, the share is 0.
 template <class F>
 F part_coverage(const CapsuleLanes<F>& c, F lx, F ly, F lz, F slope) {
   const F one(1.0f), zero(0.0f);
   const F depth_a = fma(c.ax, lx, fma(c.ay, ly, c.az * lz)),
           depth_b = fma(c.bx, lx, fma(c.by, ly, c.bz * lz));
-  // Cuts off what is behind the receiver. The cut is close to the receiver's plane, where the rest appears
-  // far aside.
+  // Cuts off the part of the capsule that is behind the receiver. The cut is so close to the receiver's plane
+  // that the remaining capsule still appears to end far to the side.
   const F deepest = max(depth_a, depth_b);
   const F least = F(0.02f) * deepest;
   const F da = max(depth_a, least), db = max(depth_b, least);
@@ -86,13 +89,13 @@ F part_coverage(const CapsuleLanes<F>& c, F lx, F ly, F lz, F slope) {
   const F xa = fma(ax, dx, fma(ay, dy, az * dz)) * inverse;
   const F a2 = fma(ax, ax, fma(ay, ay, az * az));
   const F aside2 = max(a2 - xa * xa, zero), aside = sqrt(aside2);
-  // The disc of the capsule that reaches nearest to the axis. A taper moves it from the foot of the
-  // perpendicular towards the thicker end.
+  // Finds the disc of the capsule that reaches nearest to the axis. If the capsule is tapered, this disc is
+  // not at the foot of the perpendicular, but closer to the thicker end.
   const F nearest = min(max(fma(dr * inverse, aside, zero - xa) * inverse, zero), one);
   const F radius = fma(nearest, dr, ra), along_x = fma(nearest, length, xa);
   const F distance = sqrt(fma(along_x, along_x, aside2));
   const F edge = share_beyond(distance - radius);
-  const F cap = F(0.785398163f) * radius;  // a rectangle of the area of half a disc
+  const F cap = F(0.785398163f) * radius;  // length of a rectangle with the area of half a disc
   const F across = share_beyond(aside - radius) - share_beyond(aside + radius);
   const F along = share_beyond(xa - cap) - share_beyond(xa + length + cap);
   const F narrow = across * along;

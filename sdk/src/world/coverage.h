@@ -14,10 +14,10 @@
 // dot(n, Phi) is the form factor, exact where the capsule is above the horizon. If one disc hides the other,
 // clamping the cosines to [-1, 1] gives the larger disc's form factor.
 //
-// On the surface of a capsule, the region is a half-space. A point inside keeps the half-space of the nearest
-// surface, so that the share is continuous. If an end contains the point, its sine is limited to below 1.
-// Inside the round wall, no great circle touches both ends and gamma^2 would be negative. There Phi is the
-// unit vector towards the axis, (alpha u + beta v) / sqrt(alpha s_u + beta s_v).
+// On the surface of a capsule, the region is a half-space. A point inside uses the half-space of the nearest
+// surface, so that the share is continuous. If the sphere of an end contains the point, the sine of this end
+// is limited to just below 1. Inside the round wall, no great circle touches both ends and gamma^2 would be
+// negative. There Phi is the unit vector towards the axis, (alpha u + beta v) / sqrt(alpha s_u + beta s_v).
 #pragma once
 
 #include "sdk/src/core/light_bands.h"
@@ -26,7 +26,8 @@
 
 namespace nook::world {
 
-// Returns the angle whose versine (1 - cosine) is w in [0, 2]. The versine keeps the digits of small angles.
+// Returns the angle whose versine (1 - cosine) is w in [0, 2]. The versine is used because it does not lose
+// digits for small angles.
 template <class F>
 F angle_of_versine(F w) {
   const F one(1.0f);
@@ -48,7 +49,7 @@ struct HullFactor {
   F a, b;
 };
 
-// su, sv: below 1. spread: 1 - c.
+// `su` and `sv` are s_u and s_v, and must be below 1. `spread` is 1 - c.
 template <class F>
 HullFactor<F> hull_factor(F su, F sv, F spread) {
   const F one(1.0f), zero(0.0f);
@@ -62,7 +63,7 @@ HullFactor<F> hull_factor(F su, F sv, F spread) {
   const F gamma = sqrt(max(one - across2, zero));
   const F cu = sqrt(one - su * su), cv = sqrt(one - sv * sv);
   const F inverse_cu = one / cu, inverse_cv = one / cv;
-  // cu cv + su sv = 1 - ((su - sv)^2 + (cu - cv)^2) / 2 without cancellation.
+  // cu cv + su sv = 1 - ((su - sv)^2 + (cu - cv)^2) / 2 is computed without cancellation.
   const F apart = difference * (su + sv) / (cu + cv);
   const F near = F(0.5f) * fma(difference, difference, apart * apart);
   const F versine = (spread - near) * inverse_cu * inverse_cv;
@@ -78,15 +79,15 @@ HullFactor<F> hull_factor(F su, F sv, F spread) {
           select(less(one, within), beta * inverse_across, b)};
 }
 
-// Returns the share above the horizon. factor: dot(n, Phi); size2: |Phi|^2; lowest: the height of the lowest
-// part of the capsule's two spheres above the horizon, in their radii, at least 1 where the capsule is above
-// it.
+// Returns the share above the horizon. `factor` is dot(n, Phi), and `size2` is |Phi|^2. `lowest` is the
+// smaller height above the horizon of the two spheres at the capsule's ends, each in units of its radius. It
+// is at least 1 if the whole capsule is above the horizon.
 //
-// The region counts as the disc of the same vector Phi: its sine is sqrt(|Phi|), and t = dot(n, Phi) /
-// |Phi|^(3/2) is the height of its centre in radii. The disc's share above the horizon is |Phi|^(3/2) (t +
-// x(t)) for |t| < 1, where x(t) = (1 - t) / 2 - w1 (1 - t^2) - w2 (1 - t^2)^2 meets x(t) - x(-t) = -t, which
-// is exact; w1 and w2 are polynomials in sqrt(1 - |Phi|), 0 on the surface and exact far away. The error of
-// this fit against the closed form of a disc is at most 0.0052, and its rms 0.001.
+// The region is treated as the disc that has the same vector Phi: its sine is sqrt(|Phi|), and t = dot(n,
+// Phi) / |Phi|^(3/2) is the height of its centre in radii. The disc's share above the horizon is |Phi|^(3/2)
+// (t + x(t)) for |t| < 1, where x(t) = (1 - t) / 2 - w1 (1 - t^2) - w2 (1 - t^2)^2 meets x(t) - x(-t) = -t,
+// which is exact; w1 and w2 are polynomials in sqrt(1 - |Phi|), 0 on the surface and exact far away. The
+// error of this fit against the closed form of a disc is at most 0.0052, and its rms 0.001.
 template <class F>
 F above_horizon(F factor, F size2, F lowest) {
   const F one(1.0f), zero(0.0f);
@@ -104,21 +105,21 @@ F above_horizon(F factor, F size2, F lowest) {
   return select(less(F(-1.0f), height), max(fma(cube, x, factor), zero), zero);
 }
 
-// A capsule seen from its receiver: the vectors from the receiver to its ends.
+// A capsule relative to its receiver: the vectors from the receiver to the capsule's ends, and the radii.
 template <class F>
 struct CapsuleLanes {
   F ax, ay, az, bx, by, bz, radius_a, radius_b;
 };
 
-// Returns the share in [0, 1] for a receiver at the origin with a unit normal, and the vector Phi. If a
-// number is NaN, so is Phi, and the share is 0.
+// Returns the share in [0, 1] for a receiver at the origin with a unit normal, and the vector Phi. If an
+// input is NaN, Phi is NaN and the share is 0.
 template <class F>
 F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz, Direction<F>& phi) {
   const F one(1.0f), zero(0.0f), tiny(1e-24f);
   const F a2 = fma(capsule.ax, capsule.ax, fma(capsule.ay, capsule.ay, capsule.az * capsule.az));
   const F b2 = fma(capsule.bx, capsule.bx, fma(capsule.by, capsule.by, capsule.bz * capsule.bz));
   const F ia = rsqrt(max(a2, tiny)), ib = rsqrt(max(b2, tiny));
-  // The order of the arguments keeps a NaN.
+  // With this order of the arguments, min returns a NaN unchanged.
   const F su = min(F(float(NOOK_LARGEST_SINE)), capsule.radius_a * ia);
   const F sv = min(F(float(NOOK_LARGEST_SINE)), capsule.radius_b * ib);
   const F ux = capsule.ax * ia, uy = capsule.ay * ia, uz = capsule.az * ia;

@@ -1,11 +1,11 @@
-// Bands 0 to 4 of light that is a sum of lobes, as factors of 25 harmonic polynomials, and of densities over
-// directions. Densities are summed first and then combined with the light. The mean of the light under a
-// density around d is the sum over the bands l of A_l times the light's band at d. A_l is the mean of the
-// Legendre polynomial of l under the density.
+// Bands 0 to 4 of light that is a sum of lobes, and bands 0 to 4 of densities over directions. Both are
+// stored as factors of 25 harmonic polynomials. Densities are summed first and then combined with the light.
+// The mean of the light under a density around d is the sum over the bands l of A_l times the light's band at
+// d. A_l is the mean of the Legendre polynomial of l under the density.
 //
 // The polynomials are spherical harmonics without their factors, which the light's terms contain. Bands 3 and
-// 4 need enough lobes: with fewer, they would show the shape of the lobes and not the light, so they are left
-// out. They are weighted by 0.8 and 0.6 to reduce ringing.
+// 4 are only used if there are enough lobes. With fewer lobes, they would describe the shape of the lobes
+// instead of the light. They are weighted by 0.8 and 0.6 to reduce ringing.
 #pragma once
 
 #include <span>
@@ -22,7 +22,7 @@ inline constexpr std::size_t lobes_for_all_bands = 24;
 // The components x, y, z are the channels red, green, blue.
 struct LightTerms {
   Vec3 term[light_term_count];
-  Vec3 darkest;  // as in LightBands
+  Vec3 darkest;  // see LightBands::darkest
 };
 
 // Calls visit(index, band, value) for each polynomial at the unit vector d.
@@ -70,13 +70,13 @@ struct GatheredTerms {
     for (F& s : terms.sum) s = F(0.0f);
     return terms;
   }
-  // Adds a density round the unit vector d, times `weight`.
+  // Adds a density around the unit vector d, multiplied by `weight`.
   void add(const Direction<F>& d, F weight, const F (&band)[light_band_count]) {
     F scaled[light_band_count];
     for (int l = 0; l < light_band_count; ++l) scaled[l] = weight * band[l];
     visit_terms(d, [&](int i, int l, F value) { sum[i] = fma(scaled[l], value, sum[i]); });
   }
-  // Returns one channel of the light under the summed densities, times the sum of weights.
+  // Returns one channel of the mean light under the summed densities, multiplied by the sum of the weights.
   F light(const LightTerms& light, float Vec3::*channel) const {
     F all(0.0f);
     for (int i = 0; i < light_term_count; ++i) all = fma(sum[i], F(light.term[i].*channel), all);
@@ -84,7 +84,7 @@ struct GatheredTerms {
   }
 };
 
-// Returns the light of the lobes. Their axes are unit, or zero if a lobe is constant.
+// Returns the terms of the lobes. The axis of a lobe must be a unit vector, or zero if the lobe is constant.
 inline LightTerms terms_of(std::span<const SphericalGaussian> lobes) {
   // 4 pi times the squared factors of the harmonics.
   constexpr float square[light_term_count] = {1,      3,       3,         3,          1.25f,   15,     15,
@@ -106,19 +106,20 @@ inline LightTerms terms_of(std::span<const SphericalGaussian> lobes) {
   return light;
 }
 
-// Light by colour channel. Casters that cover the share f of a point's hemisphere take f rho of its light.
-// rho is the mean radiance behind them divided by the mean radiance of the hemisphere, both weighted by the
-// cosine. The light and the casters are reduced to bands 0 to 4.
+// Occlusion of light for each colour channel. Casters that cover the share f of a point's hemisphere remove
+// the share f rho of its light. rho is the mean radiance behind the casters, divided by the mean radiance of
+// the hemisphere, both weighted by the cosine. The light and the casters are reduced to bands 0 to 4.
 //
-// A caster counts as the disc of its vector Phi (coverage.h); s = |Phi| is the squared sine of the disc's
-// radius. Around its centre a cosine-weighted disc has the bands A1 = 2 (1 - (1 - s)^(3/2)) / (3 s),
-// approximated within 0.002 by 1 - s / 4 - s^2 / 12, A2 = 1 - 3 s / 4, A3 = (1 - s)^(3/2) and A4 = 1 - 5 s /
-// 2 + 35 s^2 / 24. If the caster fills the hemisphere, they equal the hemisphere's bands 2 / 3, 1 / 4, 0 and
-// -1 / 24, so that rho is 1. If the horizon cuts the disc, its centre counts as halfway up the remaining
-// part.
+// A caster is treated as the disc that has the caster's vector Phi (coverage.h). s = |Phi| is the squared
+// sine of the disc's angular radius. Around its centre, a cosine-weighted disc has the bands A1 = 2 (1 - (1 -
+// s)^(3/2)) / (3 s), approximated within 0.002 by 1 - s / 4 - s^2 / 12, A2 = 1 - 3 s / 4, A3 = (1 - s)^(3/2)
+// and A4 = 1 - 5 s / 2 + 35 s^2 / 24. If the caster fills the hemisphere, they equal the hemisphere's bands 2
+// / 3, 1 / 4, 0 and -1 / 24, so that rho is 1. If the horizon cuts the disc, the middle of the visible part
+// is used as its centre.
 //
-// Where casters overlap, AO is the product over the casters, and the light's open share is 1 - (1 - AO) R. R
-// is the mean of rho over the casters, weighted by their shares. Under constant light the result is AO.
+// If several casters darken a point, AO is the product of their open shares, and the open share of the light
+// is 1 - (1 - AO) R. R is the mean of rho over the casters, weighted by their shares. Under constant light
+// the result is AO.
 
 // Adds a caster that covers `share` of the hemisphere around n.
 template <class F>
@@ -140,7 +141,7 @@ void gather(GatheredTerms<F>& gathered, const Direction<F>& n, const Direction<F
   gathered.add(Direction<F>{d.x * t, d.y * t, d.z * t}, share, band);
 }
 
-// Returns the open share of the light in each channel, in [0, 1]. ao: what the gathered casters leave open.
+// Returns the open share of the light in each channel, in [0, 1]. `ao` is the AO of the gathered casters.
 template <class F>
 Colour<F> open_light(const GatheredTerms<F>& gathered, const LightTerms& light, const Direction<F>& n, F ao) {
   const F one(1.0f), zero(0.0f);

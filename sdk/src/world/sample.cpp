@@ -18,8 +18,8 @@ const WorldKernels* world_kernels(Isa isa) {
 
 namespace {
 
-// The number of points that are evaluated together: a multiple of every vector's width, small enough for the
-// stack.
+// The number of points that are evaluated together. It is a multiple of the width of every vector type, and
+// small enough for arrays on the stack.
 constexpr std::uint32_t block_points = 128;
 
 struct Block {
@@ -31,7 +31,7 @@ struct Block {
   alignas(64) float rgb[3][block_points];
   bool sound[block_points];
   std::uint32_t count = 0;
-  Vec3 centre;  // of a sphere that contains the points
+  Vec3 centre;  // centre of a sphere that contains the points
   float radius = 0;
 
   GatheredSoa terms() {
@@ -54,7 +54,7 @@ void load_points(const SampleRequest& request, std::uint32_t first, Block& block
       const float* const at = request.positions + (first + i) * request.stride;
       const float* const facing = request.normals + (first + i) * request.stride;
       const Vec3 position{at[0], at[1], at[2]}, normal{facing[0], facing[1], facing[2]};
-      // The sum is finite only if all of them are.
+      // The sum is finite only if every coordinate is finite.
       const float sum = (std::abs(position.x) + std::abs(position.y) + std::abs(position.z)) +
                         (std::abs(normal.x) + std::abs(normal.y) + std::abs(normal.z));
       if (sum < 1e15f) {
@@ -79,15 +79,15 @@ void load_points(const SampleRequest& request, std::uint32_t first, Block& block
   block.radius = 0.5f * length(high - low);
 }
 
-// Returns whether the casters may take cutoff_error or more of AO at any point of the block. False for NaN.
+// Returns true if the casters may reduce AO by cutoff_error or more at any point of the block. False for NaN.
 bool reaches(const CasterGroup& group, const Block& block, float cutoff_error) {
   const float gap = length(group.centre - block.centre) - group.radius - block.radius;
   if (gap <= 0) return true;
   return group.strength >= cutoff_error * gap * gap;
 }
 
-// Returns whether the casters may stand before the cone at any point of the block. Parts of a cone reach
-// beyond its edge by at most half their width.
+// Returns true if the casters may hide a part of the cone at any point of the block. The parts of a cone
+// extend beyond the cone's edge by at most half their width.
 bool stands_before(const CasterGroup& group, const Block& block, const SampleRequest& request, float wide) {
   const Vec3 d = group.centre - block.centre;
   const float reach = group.radius + block.radius, distance = length(d);
@@ -104,8 +104,8 @@ void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleR
   ConeParts parts;
   const bool lit = request.has_light && light, coloured = request.terms && rgb;
   if (lit) parts = cone_parts_of(request.light_axis, request.light_half_angle_radians);
-  // A thin capsule counts as a rectangle. Its corners reach beyond the round ends by less than a third of a
-  // part.
+  // A thin capsule is treated as a rectangle. The corners of the rectangle extend beyond the round ends by
+  // less than a third of a part.
   const float wide = request.light_half_angle_radians + 2 * std::atan(parts.slope);
   const auto run = [&](std::uint32_t index) noexcept {
     Block block;

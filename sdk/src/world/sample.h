@@ -1,4 +1,4 @@
-// Computes AO and the open share of a cone of light at points, from groups of casters such as bodies.
+// Computes AO, light and the open share of a cone of light at points, from groups of casters such as bodies.
 #pragma once
 
 #include <cstddef>
@@ -11,37 +11,38 @@
 
 namespace nook::world {
 
-// Casters that stand together.
+// Casters that are near each other, such as the casters of a body.
 struct CasterGroup {
   std::span<const PosedCaster> casters;
-  Vec3 centre;  // of a sphere that contains them
+  Vec3 centre;  // centre of a sphere that contains the casters
   float radius = 0;
-  float strength = 0;  // square metres; the AO that they take at the distance d is at most strength / d^2
+  float strength = 0;  // square metres; at distance d, the casters reduce AO by at most strength / d^2
 };
 
-// The groups of a scene, each by its number.
+// The groups of a scene, which a callback returns by index.
 struct CasterGroups {
   std::uint32_t count = 0;
   const void* user = nullptr;
-  // A group may refer to `room`, which must live as long as the group.
+  // Returns a group by its index. The group may refer to `room`, so `room` must outlive the group.
   CasterGroup (*group)(const void* user, std::uint32_t index, PosedCaster& room) = nullptr;
 };
 
 struct SampleRequest {
   const float* positions = nullptr;  // three floats for each point
-  const float* normals = nullptr;    // the same, with unit length
+  const float* normals = nullptr;    // three floats for each point, unit length
   std::uint32_t count = 0;
-  std::size_t stride = 3;             // floats from point to point, in both arrays
-  const LightTerms* terms = nullptr;  // of the light for the colours; NULL: none
-  float cutoff_error = 0;             // AO; groups that take less from a block of points are skipped there
+  std::size_t stride = 3;             // distance between points in floats, in both arrays
+  const LightTerms* terms = nullptr;  // the light for the coloured result; NULL: no coloured result
+  float cutoff_error = 0;             // in AO; groups that reduce the AO of a block of points by less are
+                                      // skipped there
   bool has_light = false;
-  Vec3 light_axis;  // unit, towards the light
+  Vec3 light_axis;  // unit vector towards the light
   float light_half_angle_radians = 0;
 };
 
-// Writes `count` values to ao, to light if there is a cone, and three for each point to rgb if there are
-// terms. Each array may be NULL. A point or normal that is not finite is open. Neither allocates nor locks
-// nor throws.
+// Writes one value per point to `ao`. If there is a cone, also writes one value per point to `light`. If
+// there are terms, also writes three values per point to `rgb`. Each array may be NULL. A point with a
+// position or normal that is not finite gets the results of an open point. Does not allocate, lock or throw.
 void sample(const WorldKernels& kernels, const Parallel& parallel, const SampleRequest& request,
             const CasterGroups& groups, float* ao, float* light, float* rgb) noexcept;
 

@@ -10,8 +10,9 @@ constexpr std::uint32_t tiles_along(std::uint32_t length_px, std::uint32_t tile_
   return (length_px + tile_px - 1) / tile_px;
 }
 
-// The tangents of the directions between which a sphere lies, in the plane of a screen axis and the camera's
-// axis. If the sphere reaches beside or behind the camera, they span the whole screen.
+// The extent of a sphere along one screen axis: the tangents of the angles, measured from the camera's axis,
+// between which the sphere appears. If the sphere reaches beside or behind the camera, the extent is the
+// whole screen.
 struct Extent {
   float low = -INFINITY, high = INFINITY;
 };
@@ -20,17 +21,17 @@ Extent perspective_extent(float aside, float depth, float radius) {
   const float distance2 = aside * aside + depth * depth;
   if (!(distance2 > radius * radius)) return {};
   const float middle = std::atan2(aside, depth), half = std::asin(radius / std::sqrt(distance2));
-  constexpr float ahead = 1.56f;  // just less than a right angle
+  constexpr float ahead = 1.56f;  // radians, just less than a right angle
   return {middle - half > -ahead ? std::tan(middle - half) : -INFINITY,
           middle + half < ahead ? std::tan(middle + half) : INFINITY};
 }
 
-// Returns false if no pixel from 0 to size_px lies between them.
+// Finds the tiles that overlap the extent. Returns false if no pixel from 0 to size_px is in the extent.
 bool tiles_between(Extent extent, float scale, float offset, std::uint32_t size_px, std::uint32_t tile_px,
                    std::uint32_t& first, std::uint32_t& last) {
   float low = (extent.low - offset) / scale, high = (extent.high - offset) / scale;
   if (low > high) std::swap(low, high);
-  // Also true if a number is NaN.
+  // If a value is NaN, the result is true.
   if (!(high >= 0 && low <= float(size_px))) return std::isnan(low) || std::isnan(high);
   const auto tile = [&](float pixel) {
     return std::uint32_t(std::clamp(pixel, 0.0f, float(size_px - 1))) / tile_px;
@@ -67,7 +68,8 @@ TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius) {
 }
 
 TileRange shaded_tiles(const TileGrid& grid, Vec3 centre, float radius, const Shadow& shadow) {
-  // Each step's spheres fit in a sphere that is not much larger; the last step takes the rest.
+  // Divides the path into steps so short that a sphere around each step's spheres is not much larger than
+  // they are. The last step covers the remaining path.
   constexpr int most_steps = 12;
   TileRange all;
   float from = 0;
@@ -95,7 +97,7 @@ std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> 
   for (const TileRange& r : ranges)
     if (!r.empty)
       entries += std::uint64_t{r.last_column - r.first_column + 1} * (r.last_row - r.first_row + 1);
-  // Each tile has a texel, and another that may not be full.
+  // Each tile needs one texel for its head, and may have one texel of entries that is not full.
   return 2 * std::uint64_t{grid.columns()} * grid.rows() + entries / 4;
 }
 

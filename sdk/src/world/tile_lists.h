@@ -1,5 +1,6 @@
-// Lists the bodies that may reach each tile of the screen. The depth behind a tile does not matter: a body is
-// in the list of each tile that the sphere of its reach covers on the screen.
+// For each tile of the screen, lists the bodies that may darken surfaces in the tile. The depth of the
+// surfaces is not considered: a body is in the list of every tile that the sphere of the body's reach covers
+// on the screen.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +11,9 @@
 
 namespace nook::world {
 
-// A viewport divided into tiles with sides of tile_px pixels. View space x is (x_scale pixel + x_offset)
-// times the depth, or times 1 in an orthographic view; y works the same way.
+// A viewport that is divided into tiles of tile_px x tile_px pixels. In a perspective view, x in view space
+// is (x_scale pixel + x_offset) * depth. In an orthographic view, it is x_scale pixel + x_offset. y is
+// computed in the same way.
 struct TileGrid {
   std::uint32_t width_px = 0, height_px = 0, tile_px = 32;
   float x_scale = 1, x_offset = 0, y_scale = 1, y_offset = 0;
@@ -20,31 +22,31 @@ struct TileGrid {
   std::uint32_t rows() const;
 };
 
-// Tiles from first to last inclusive; none if empty.
+// The tiles from the first to the last one, inclusive. An empty range has no tiles.
 struct TileRange {
   std::uint32_t first_column = 0, last_column = 0, first_row = 0, last_row = 0;
   bool empty = true;
 };
 
-// Returns the tiles that a sphere may cover. They contain every point of the sphere in front of the camera.
-// centre: view space, metres.
+// Returns the tiles that a sphere may cover. They contain every point of the sphere that is in front of the
+// camera. `centre` is in view space, metres.
 TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius);
 
-// The shadow of a body in a cone of light. It is made of spheres whose centres move from `centre` by up to
-// reach along `away`, and whose radius grows by `spread` metres per metre. `away` is unit and points away
-// from the light.
+// The shadow volume of a body in a cone of light. It is the union of spheres along a path: the centre moves
+// from `centre` along `away`, by up to `reach`, and the radius grows by `spread` metres per metre. `away` is
+// a unit vector that points away from the light.
 struct Shadow {
   Vec3 away;
   float spread = 0, reach = 0;
 };
 TileRange shaded_tiles(const TileGrid& grid, Vec3 centre, float radius, const Shadow& shadow);
 
-// Returns a bound of the texels of the lists.
+// Returns an upper bound for the number of texels of the lists.
 std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> ranges);
 
-// Writes the texels of the lists: for each tile (first texel of its entries, counted from the first tile's;
-// their number; 0; 0), then the entries. Entries are indices into `ranges`, four to a texel. Resizes texels.
-// Throws std::bad_alloc.
+// Writes the texels of the lists. First comes one texel for each tile: (index of the first texel of its
+// entries, relative to the first tile's texel; number of entries; 0; 0). Then come the entries, which are
+// indices into `ranges`, four in a texel. Resizes `texels`. Throws std::bad_alloc.
 void write_tile_lists(const TileGrid& grid, std::span<const TileRange> ranges, Vector<float>& texels);
 
 }  // namespace nook::world

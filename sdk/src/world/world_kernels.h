@@ -1,6 +1,6 @@
-// Computes what casters leave open at many points, as a table of plain functions for each instruction set.
-// Arrays of points belong to the caller and are padded to a multiple of simd_width; padding must hold finite
-// numbers. None allocates, locks or throws.
+// Kernels that compute the share that casters leave open at many points, as a table of plain functions for
+// each instruction set. The caller owns the arrays of points. They must be padded to a multiple of simd_width
+// with finite values. The functions do not allocate, lock or throw.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace nook::world {
 
-// World space, metres; normals of unit length.
+// Points in world space, in metres. Normals must have unit length.
 struct PointSoa {
   const float *x = nullptr, *y = nullptr, *z = nullptr;
   const float *nx = nullptr, *ny = nullptr, *nz = nullptr;
@@ -32,10 +32,10 @@ struct WorldKernels {
   // open[i] *= the product over the casters of 1 - coverage.
   void (*open_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                           float* open);
-  // The same, and adds each caster to the terms.
+  // The same, but also adds each caster to the terms.
   void (*gather_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                             float* open, const GatheredSoa& gathered);
-  // Writes the open share of the light for each channel; `open` is AO.
+  // Writes the open share of the light for each channel. `open` is the AO.
   void (*open_light)(const LightTerms& light, const PointSoa& points, const GatheredSoa& gathered,
                      const float* open, float* const* rgb);
   // open[i] *= the product over the casters of 1 - part_coverage, for one part of a cone.

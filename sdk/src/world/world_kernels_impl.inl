@@ -1,9 +1,10 @@
-// The kernels over one vector type. Each instruction set includes this file inside its own namespace, after
-// it has defined isa, Float with the operations of core/simd_scalar.h, width, broadcast, load and store.
+// The kernels for one vector type. Each instruction set includes this file inside its own namespace. Before
+// that, it must define isa, Float with the operations of core/simd_scalar.h, width, broadcast, load and
+// store.
 
 namespace {
 
-// A caster relative to `width` points, with its radii times `scale`.
+// Returns a caster relative to each of `width` points, with its radii multiplied by `scale`.
 world::CapsuleLanes<Float> lanes_of(const PosedCaster& caster, float scale, Float x, Float y, Float z) {
   const Capsule& c = caster.capsule;
   return {broadcast(c.a.x) - x,          broadcast(c.a.y) - y,         broadcast(c.a.z) - z,

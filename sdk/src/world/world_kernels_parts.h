@@ -1,4 +1,5 @@
-// The headers of world_kernels_impl.inl, which is included inside a namespace.
+// Includes the headers that world_kernels_impl.inl needs. The .inl file cannot include them, because it is
+// itself included inside a namespace.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Eight floats for AVX2 and FMA. Only translation units that are compiled for them may include this file.
+// Eight floats for AVX2 and FMA. Only include this file in translation units that are compiled for AVX2 and
+// FMA.
 #pragma once
 
 #include <immintrin.h>
@@ -26,7 +27,7 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm256_loadu_ps(p);
 }
-// Whole numbers of 32 bits.
+// A vector of 32-bit integers.
 struct Whole {
   __m256i v;
 };
@@ -88,7 +89,7 @@ struct Mask {
 inline Mask less(Float a, Float b) {
   return {_mm256_cmp_ps(a.v, b.v, _CMP_LT_OQ)};
 }
-// Returns one bit for each lane, the first lowest.
+// Returns a mask with one bit for each lane; the first lane has the lowest bit.
 inline std::uint32_t bits(Mask m) {
   return std::uint32_t(_mm256_movemask_ps(m.v));
 }
@@ -99,8 +100,8 @@ inline Float select(Mask m, Float yes, Float no) {
 inline Float sqrt(Float a) {
   return _mm256_sqrt_ps(a.v);
 }
-// The divider is idle beside the other ports, so its square root costs less than an estimate with a Newton
-// step.
+// Uses the exact square root. The divider is idle otherwise and works in parallel to the other ports, so this
+// costs less than an estimate with a Newton step.
 inline Float sqrt_positive(Float a) {
   return _mm256_sqrt_ps(a.v);
 }
@@ -113,8 +114,8 @@ inline Float rsqrt(Float a) {
   const __m256 residual = _mm256_fnmadd_ps(_mm256_mul_ps(a.v, t), t, _mm256_set1_ps(1.0f));
   return _mm256_fmadd_ps(_mm256_mul_ps(t, _mm256_set1_ps(0.5f)), residual, t);
 }
-// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) up to e^2, which is
-// 1e-6.
+// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2), which is about r^3 (1 + 3/2 e). The
+// error is of the order of e^2, about 1e-6.
 inline Float rsqrt_cubed(Float a, float scale) {
   const Float r = _mm256_rsqrt_ps(a.v);
   const Float r2 = r * r;
@@ -123,7 +124,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m256i bits = _mm256_castps_si256(a.v);
-  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
+  // from there on.
   const __m256i e = _mm256_srai_epi32(_mm256_sub_epi32(bits, _mm256_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm256_cvtepi32_ps(e);
   mantissa = _mm256_castsi256_ps(_mm256_sub_epi32(bits, _mm256_slli_epi32(e, 23)));
@@ -131,7 +133,7 @@ inline void split(Float a, Float& exponent, Float& mantissa) {
 inline Float nearest(Float a) {
   return _mm256_round_ps(a.v, _MM_FROUND_TO_NEAREST_INT | _MM_FROUND_NO_EXC);
 }
-// The exponent lies above the mantissa, where a and the result are normal.
+// Adds n to the exponent bits, which are above the mantissa. `a` and the result must be normal.
 inline Float times_power_of_two(Float a, Float n) {
   const __m256i e = _mm256_slli_epi32(_mm256_cvtps_epi32(n.v), 23);
   return _mm256_castsi256_ps(_mm256_add_epi32(_mm256_castps_si256(a.v), e));
@@ -153,7 +155,7 @@ inline float sum(Float a) {
 
 #include "sdk/src/isa/x86_four.inl"
 
-// Returns four floats that have the sum of all lanes.
+// Returns four floats whose sum is the sum of all lanes.
 inline Four folded(Float a) {
   return _mm_add_ps(_mm256_castps256_ps128(a.v), _mm256_extractf128_ps(a.v, 1));
 }

@@ -5,7 +5,7 @@
 
 namespace nook::isa_avx512 {
 
-using Wide = simd::Pair<Float>;  // what the loops over spheres run on
+using Wide = simd::Pair<Float>;  // the vector type of the loops over spheres
 
 #include "sdk/src/character/shadow_kernels_impl.inl"
 #include "sdk/src/character/shadow_kernels_impl_directional.inl"

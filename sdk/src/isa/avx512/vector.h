@@ -1,4 +1,4 @@
-// Sixteen floats for AVX-512F. Only translation units that are compiled for it may include this file.
+// Sixteen floats for AVX-512F. Only include this file in translation units that are compiled for AVX-512F.
 #pragma once
 
 #include <immintrin.h>
@@ -26,7 +26,8 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm512_loadu_ps(p);
 }
-// Whole numbers of 32 bits, in halves: AVX-512F does not multiply 16-bit numbers in 512-bit vectors.
+// A vector of 32-bit integers, stored as two halves, because AVX-512F cannot multiply 16-bit integers in
+// 512-bit vectors.
 struct Whole {
   __m256i a, b;
 };
@@ -86,7 +87,7 @@ inline Float max(Float a, Float b) {
 inline __mmask16 less(Float a, Float b) {
   return _mm512_cmp_ps_mask(a.v, b.v, _CMP_LT_OQ);
 }
-// Returns one bit for each lane, the first lowest.
+// Returns a mask with one bit for each lane; the first lane has the lowest bit.
 inline std::uint32_t bits(__mmask16 m) {
   return m;
 }
@@ -97,11 +98,11 @@ inline Float select(__mmask16 m, Float yes, Float no) {
 inline Float sqrt(Float a) {
   return _mm512_sqrt_ps(a.v);
 }
-// The estimates have 14 bits, which is a relative error of 6e-5.
+// The processor's estimates have 14 bits, which is a relative error of 6e-5.
 inline Float sqrt_positive(Float a) {
   return a * Float(_mm512_rsqrt14_ps(a.v));
 }
-// The floor avoids 0 * infinity.
+// The lower limit of `a` avoids 0 * infinity.
 inline Float power_three_halves(Float a) {
   return a * a * Float(_mm512_rsqrt14_ps(_mm512_max_ps(a.v, _mm512_set1_ps(1e-30f))));
 }
@@ -111,8 +112,8 @@ inline Float rsqrt(Float a) {
   const __m512 residual = _mm512_fnmadd_ps(_mm512_mul_ps(a.v, t), t, _mm512_set1_ps(1.0f));
   return _mm512_fmadd_ps(_mm512_mul_ps(t, _mm512_set1_ps(0.5f)), residual, t);
 }
-// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) up to e^2, which is
-// below the rounding of float.
+// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2), which is about r^3 (1 + 3/2 e). The
+// error is of the order of e^2, which is below the rounding of floats.
 inline Float rsqrt_cubed(Float a, float scale) {
   const Float r = _mm512_rsqrt14_ps(a.v);
   const Float r2 = r * r;
@@ -121,7 +122,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m512i bits = _mm512_castps_si512(a.v);
-  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
+  // from there on.
   const __m512i e = _mm512_srai_epi32(_mm512_sub_epi32(bits, _mm512_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm512_cvtepi32_ps(e);
   mantissa = _mm512_castsi512_ps(_mm512_sub_epi32(bits, _mm512_slli_epi32(e, 23)));
@@ -147,7 +149,7 @@ inline float sum(Float a) {
 
 #include "sdk/src/isa/x86_four.inl"
 
-// Returns four floats that have the sum of all lanes.
+// Returns four floats whose sum is the sum of all lanes.
 inline Four folded(Float a) {
   const __m256 upper = _mm256_castpd_ps(_mm512_extractf64x4_pd(_mm512_castps_pd(a.v), 1));
   const __m256 half = _mm256_add_ps(_mm512_castps512_ps256(a.v), upper);

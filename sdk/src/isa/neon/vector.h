@@ -26,7 +26,7 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return vld1q_f32(p);
 }
-// Whole numbers of 32 bits.
+// A vector of 32-bit integers.
 struct Whole {
   int32x4_t v;
 };
@@ -77,8 +77,8 @@ inline Float operator/(Float a, Float b) {
 inline Float fma(Float a, Float b, Float c) {
   return vfmaq_f32(c.v, a.v, b.v);
 }
-// These return the number if the other operand is NaN. The x86 versions return the second operand if either
-// is NaN. For all callers that is the same: their second operand is never NaN.
+// If one operand is NaN, min and max return the other operand. The x86 versions return the second operand if
+// either is NaN. For all callers the result is the same, because their second operand is never NaN.
 inline Float min(Float a, Float b) {
   return vminnmq_f32(a.v, b.v);
 }
@@ -92,7 +92,7 @@ struct Mask {
 inline Mask less(Float a, Float b) {
   return {vcltq_f32(a.v, b.v)};
 }
-// Returns one bit for each lane, the first lowest.
+// Returns a mask with one bit for each lane; the first lane has the lowest bit.
 inline std::uint32_t bits(Mask m) {
   const std::uint32_t of_lanes[4] = {1, 2, 4, 8};
   return vaddvq_u32(vandq_u32(m.v, vld1q_u32(of_lanes)));
@@ -105,9 +105,10 @@ inline Float sqrt(Float a) {
   return vsqrtq_f32(a.v);
 }
 
-// The processor's estimate r of 1 / sqrt(a) has 8 bits. The functions below multiply it by a power of a r^2 =
-// 1 - e, with |e| < 0.008. They use three terms of its series in e, written in powers of a r^2, which saves
-// one multiplication. The relative errors are 5/16 e^3 and 35/16 e^3, below 2e-7 and 2e-6.
+// The processor's estimate r of 1 / sqrt(a) has 8 bits. The functions below multiply r by a power of a r^2 =
+// 1 - e, where |e| < 0.008. They compute this power with three terms of its series in e. The terms are
+// rewritten in powers of a r^2, which saves one multiplication. The relative errors are 5/16 e^3 for the
+// power -1/2 and 35/16 e^3 for the power -3/2, which is below 2e-7 and 2e-6.
 
 // Returns (1 - e)^(-1/2) for u = 1 - e.
 inline Float inverse_root_near_one(Float u) {
@@ -122,7 +123,7 @@ inline Float sqrt_positive(Float a) {
   const Float root = a * r;
   return root * inverse_root_near_one(root * r);
 }
-// The floor avoids 0 * infinity.
+// The lower limit of `a` avoids 0 * infinity.
 inline Float power_three_halves(Float a) {
   return a * sqrt_positive(max(a, Float(1e-30f)));
 }
@@ -137,7 +138,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const int32x4_t bits = vreinterpretq_s32_f32(a.v);
-  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
+  // from there on.
   const int32x4_t e = vshrq_n_s32(vsubq_s32(bits, vdupq_n_s32(0x3f3504f3)), 23);
   exponent = vcvtq_f32_s32(e);
   mantissa = vreinterpretq_f32_s32(vsubq_s32(bits, vshlq_n_s32(e, 23)));
@@ -162,9 +164,9 @@ inline float sum(Float a) {
   return vaddvq_f32(a.v);
 }
 
-// The transforms take vectors of four floats.
+// The pose kernels (shadow_kernels_pose_simd.inl) use vectors of four floats.
 using Four = Float;
-// Returns four floats that have the sum of all lanes.
+// Returns four floats whose sum is the sum of all lanes.
 inline Four folded(Float a) {
   return a;
 }

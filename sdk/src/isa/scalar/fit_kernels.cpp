@@ -1,4 +1,4 @@
-// The kernels of probe fits one number at a time.
+// The kernels of probe fits, one float at a time.
 #include "sdk/src/isa/scalar/vector.h"
 
 #include "sdk/src/probe/fit_kernels_parts.h"

@@ -1,11 +1,11 @@
-// The kernels of characters one number at a time, in the order of the formulas.
+// The kernels of characters, one float at a time, in the order of the formulas.
 #include "sdk/src/isa/scalar/vector.h"
 
 #include "sdk/src/character/shadow_kernels_parts.h"
 
 namespace nook::isa_scalar {
 
-using Wide = Float;  // what the loops over spheres run on
+using Wide = Float;  // the vector type of the loops over spheres
 
 #include "sdk/src/character/shadow_kernels_impl.inl"
 #include "sdk/src/character/shadow_kernels_impl_directional.inl"

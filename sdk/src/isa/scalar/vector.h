@@ -20,7 +20,7 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return *p;
 }
-// A whole number of 32 bits.
+// A 32-bit integer.
 using Whole = std::int32_t;
 struct CodePair {
   std::int32_t first, second;
@@ -41,7 +41,7 @@ inline void load_pairs(const std::int16_t* p, Float& first, Float& second) {
   first = p[0];
   second = p[1];
 }
-// Rounds to the nearest, as the vectors do.
+// Rounds to the nearest integer, like the vector versions.
 inline void store_codes(std::int32_t* low, std::int32_t* high, Float a) {
   const auto code = static_cast<std::uint32_t>(std::lrint(a));
   *low = static_cast<std::int32_t>(code & 0xffff);
@@ -80,7 +80,7 @@ inline Four operator*(Four a, const Four& b) {
   for (int i = 0; i < 4; ++i) a.v[i] *= b.v[i];
   return a;
 }
-// Returns four floats that have the sum of all lanes.
+// Returns four floats whose sum is the sum of all lanes.
 inline Four folded(Float a) {
   Four four(0.0f);
   four.v[0] = a;

@@ -1,4 +1,4 @@
-// The kernels of radiance transfer one number at a time.
+// The kernels of radiance transfer, one float at a time.
 #include "sdk/src/isa/scalar/vector.h"
 
 #include "sdk/src/transfer/vector_kernels_parts.h"

@@ -1,4 +1,4 @@
-// The kernels of world casters one number at a time.
+// The kernels of world casters, one float at a time.
 #include "sdk/src/isa/scalar/vector.h"
 
 #include "sdk/src/world/world_kernels_parts.h"

@@ -26,7 +26,7 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return _mm_loadu_ps(p);
 }
-// Whole numbers of 32 bits.
+// A vector of 32-bit integers.
 struct Whole {
   __m128i v;
 };
@@ -88,7 +88,7 @@ struct Mask {
 inline Mask less(Float a, Float b) {
   return {_mm_cmplt_ps(a.v, b.v)};
 }
-// Returns one bit for each lane, the first lowest.
+// Returns a mask with one bit for each lane; the first lane has the lowest bit.
 inline std::uint32_t bits(Mask m) {
   return std::uint32_t(_mm_movemask_ps(m.v));
 }
@@ -110,8 +110,8 @@ inline Float rsqrt(Float a) {
   const Float t = _mm_rsqrt_ps(a.v);
   return t * (Float(1.5f) - Float(0.5f) * a * t * t);
 }
-// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2) = r^3 (1 + 3/2 e) up to e^2, which is
-// 1e-6.
+// With the estimate r and e = 1 - a r^2, a^(-3/2) = r^3 (1 - e)^(-3/2), which is about r^3 (1 + 3/2 e). The
+// error is of the order of e^2, about 1e-6.
 inline Float rsqrt_cubed(Float a, float scale) {
   const Float r = _mm_rsqrt_ps(a.v);
   const Float r2 = r * r;
@@ -120,7 +120,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m128i bits = _mm_castps_si128(a.v);
-  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
+  // from there on.
   const __m128i e = _mm_srai_epi32(_mm_sub_epi32(bits, _mm_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm_cvtepi32_ps(e);
   mantissa = _mm_castsi128_ps(_mm_sub_epi32(bits, _mm_slli_epi32(e, 23)));
@@ -128,7 +129,7 @@ inline void split(Float a, Float& exponent, Float& mantissa) {
 inline Float nearest(Float a) {
   return _mm_cvtepi32_ps(_mm_cvtps_epi32(a.v));
 }
-// The exponent lies above the mantissa, where a and the result are normal.
+// Adds n to the exponent bits, which are above the mantissa. `a` and the result must be normal.
 inline Float times_power_of_two(Float a, Float n) {
   const __m128i e = _mm_slli_epi32(_mm_cvtps_epi32(n.v), 23);
   return _mm_castsi128_ps(_mm_add_epi32(_mm_castps_si128(a.v), e));
@@ -149,7 +150,7 @@ inline float sum(Float a) {
 
 #include "sdk/src/isa/x86_four.inl"
 
-// Returns four floats that have the sum of all lanes.
+// Returns four floats whose sum is the sum of all lanes.
 inline Four folded(Float a) {
   return a.v;
 }

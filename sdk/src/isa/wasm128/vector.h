@@ -1,4 +1,5 @@
-// Four floats for the fixed-width SIMD of WebAssembly, which has neither multiply-add nor estimates of roots.
+// Four floats for the fixed-width SIMD of WebAssembly, which has no multiply-add instruction and no estimates
+// of roots.
 #pragma once
 
 #include <wasm_simd128.h>
@@ -26,7 +27,7 @@ inline Float broadcast(float a) {
 inline Float load(const float* p) {
   return wasm_v128_load(p);
 }
-// Whole numbers of 32 bits.
+// A vector of 32-bit integers.
 struct Whole {
   v128_t v;
 };
@@ -74,8 +75,8 @@ inline Float operator/(Float a, Float b) {
 inline Float fma(Float a, Float b, Float c) {
   return a * b + c;
 }
-// The pseudo-minimum of (b, a) is a < b ? a : b, one instruction on x86; wasm_f32x4_min takes several for NaN
-// and -0.
+// The pseudo-minimum of (b, a) is a < b ? a : b, which is one instruction on x86. wasm_f32x4_min would take
+// several instructions, because it must handle NaN and -0.
 inline Float min(Float a, Float b) {
   return wasm_f32x4_pmin(b.v, a.v);
 }
@@ -89,7 +90,7 @@ struct Mask {
 inline Mask less(Float a, Float b) {
   return {wasm_f32x4_lt(a.v, b.v)};
 }
-// Returns one bit for each lane, the first lowest.
+// Returns a mask with one bit for each lane; the first lane has the lowest bit.
 inline std::uint32_t bits(Mask m) {
   return wasm_i32x4_bitmask(m.v);
 }
@@ -109,13 +110,15 @@ inline Float power_three_halves(Float a) {
 inline Float rsqrt(Float a) {
   return Float(1.0f) / sqrt(a);
 }
-// Takes one root and one division. Beyond 5e25, a^(3/2) is infinite and the result is 0.
+// Needs one square root and one division. For `a` above 5e25, a^(3/2) overflows to infinity, and the result
+// is 0.
 inline Float rsqrt_cubed(Float a, float scale) {
   return Float(scale) / (a * sqrt(a));
 }
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
-  // 0x3f3504f3 is 1/sqrt(2). Subtracting it first makes the shift round at that mantissa.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
+  // from there on.
   const v128_t e = wasm_i32x4_shr(wasm_i32x4_sub(a.v, wasm_i32x4_splat(0x3f3504f3)), 23);
   exponent = wasm_f32x4_convert_i32x4(e);
   mantissa = wasm_i32x4_sub(a.v, wasm_i32x4_shl(e, 23));
@@ -123,8 +126,8 @@ inline void split(Float a, Float& exponent, Float& mantissa) {
 inline Float nearest(Float a) {
   return wasm_f32x4_nearest(a.v);
 }
-// The conversion to integers saturates, which takes several instructions. Adding 1.5 * 2^23 puts n into the
-// lowest bits instead.
+// WebAssembly's conversion to integers saturates, which takes several instructions. Instead, adding 1.5 *
+// 2^23 to n puts its integer value into the lowest bits.
 inline Float times_power_of_two(Float a, Float n) {
   const v128_t bits = (n + Float(12582912.0f)).v;
   return a * Float(wasm_i32x4_shl(wasm_i32x4_add(bits, wasm_i32x4_splat(127)), 23));
@@ -143,9 +146,9 @@ inline float sum(Float a) {
   return wasm_f32x4_extract_lane(pairs.v, 0) + wasm_f32x4_extract_lane(pairs.v, 1);
 }
 
-// The transforms take vectors of four floats.
+// The pose kernels (shadow_kernels_pose_simd.inl) use vectors of four floats.
 using Four = Float;
-// Returns four floats that have the sum of all lanes.
+// Returns four floats whose sum is the sum of all lanes.
 inline Four folded(Float a) {
   return a;
 }
