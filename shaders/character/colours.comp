@@ -1,11 +1,12 @@
-// Computes directional occlusion at the key points of instances with a light: the colour of their shadow, and
-// the added occlusion of each channel.
+// Computes directional occlusion at the key points of instances that have a light: the colour of the shadow,
+// and the added occlusion of each channel.
 #include "shaders/core/constants.h"
 #include "shaders/character/key_points.glsl"
 #include "shaders/character/light.glsl"
 
 layout(std430, binding = NOOK_BINDING_KEY_POINTS) writeonly buffer NookColours {
-  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow, and the shadow; added occlusion
+  vec4 nook_colour[];  // two for each key point: colour that the shadow is multiplied by, shadow; added
+                       // occlusion
 };
 
 void nook_gather_sphere(inout NookBands bands, vec4 sphere, NookPoint point) {
@@ -28,8 +29,8 @@ NookBands nook_gather_spheres(uint first, uint count, NookPoint point) {
   return bands;
 }
 
-// Combines the spheres of a caster: the sum of their directions, weighted by their shares; w is the sum of
-// the shares.
+// Combines the spheres of a caster. xyz is the sum of the directions to the spheres, weighted by their
+// shares; w is the sum of the shares.
 vec4 nook_joint_sight(uint first, uint count, NookPoint point) {
   vec4 joint = vec4(0.0);
   for (uint begin = 0u; begin < count; begin += nook_tile_size) {
@@ -85,7 +86,8 @@ void main() {
       coloured += nook_coloured_sum(light, others, fitted.normal);
     }
   }
-  uint grounds = uint(nook_light(light, NOOK_LIGHT_DARKEST).w);  // 1 or 0: the first of the exact spheres is the ground
+  uint grounds = uint(nook_light(light, NOOK_LIGHT_DARKEST).w);  // 1 if the first of the exact spheres is the
+                                                                 // ground, else 0
   NookBands ground = nook_no_bands(), free = nook_no_bands();
   for (uint i = 0u; i < record.exact_count; ++i) {
     vec4 sphere = nook_streamed(record.first_exact + i);

@@ -1,14 +1,14 @@
-// Derives the colours of all key points from the ones that a coarser level of detail evaluates. There is one
-// thread for each key point; y is the instance.
+// Derives the colours of all key points from those key points that a coarser level of detail evaluates. There
+// is one thread for each key point; the y coordinate is the instance.
 #include "shaders/character/instance.glsl"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
 layout(std430, binding = NOOK_BINDING_KEY_POINTS) buffer NookColours {
-  vec4 nook_colour[];  // two for each of all key points, then for the evaluated ones
+  vec4 nook_colour[];  // two for each key point; first all key points, then the evaluated ones
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookSpread {
-  uint nook_spread[];  // for each level and key point: evaluated key point, scale, offset
+  uint nook_spread[];  // for each level and key point: index of the evaluated key point, scale, offset
 };
 
 layout(location = NOOK_LOCATION_SPREAD_FIRST_RECORD) uniform uint nook_first_record;
@@ -26,7 +26,7 @@ void main() {
   uint source = first + nook_key_point_count + nook_spread[rule];
   uint to = uint(NOOK_COLOUR_VEC4S) * (first + k), from = uint(NOOK_COLOUR_VEC4S) * source;
   vec4 shadow = nook_colour[from];
-  // Scale and offset apply to self-shadow only, as in spread.comp.
+  // Scale and offset apply only to self-shadow, as in spread.comp.
   if (record.self)
     shadow.w = max(uintBitsToFloat(nook_spread[rule + 1u]) * shadow.w + uintBitsToFloat(nook_spread[rule + 2u]), 0.0);
   nook_colour[to] = shadow;

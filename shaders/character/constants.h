@@ -8,10 +8,10 @@
 #define NOOK_KERNEL_NOOK 1
 #define NOOK_KERNEL_RATIONAL 2
 
-#define NOOK_MIN_SPHERE_RADIUS 1e-6  // metres; the smallest that counts
+#define NOOK_MIN_SPHERE_RADIUS 1e-6  // metres; smaller radii are treated as this one
 #define NOOK_KERNEL_CORE 0.6
 
-// form_factor_fast: the magnitudes of the coefficients of the polynomial P(b, t).
+// form_factor_fast: the absolute values of the coefficients of the polynomial P(b, t).
 #define NOOK_FORM_FACTOR_0 4.60908
 #define NOOK_FORM_FACTOR_1 5.21348
 #define NOOK_FORM_FACTOR_2 3.22202
@@ -26,14 +26,14 @@
 #define NOOK_LARGEST_RATIO 8.0
 #define NOOK_NO_SHARPEST 1e6
 
-// share_below: the width of the lobe's profile, and Abramowitz & Stegun 7.1.27.
+// share_below uses the width of the lobe's profile, and the coefficients of Abramowitz & Stegun 7.1.27.
 #define NOOK_BELOW_WIDTH 5.09
 #define NOOK_BELOW_1 0.278393
 #define NOOK_BELOW_2 0.230389
 #define NOOK_BELOW_3 0.000972
 #define NOOK_BELOW_4 0.078108
 
-// lobe_norm: the series of (e^(2 v) - 1) / v.
+// lobe_norm: the coefficients of the power series of (e^(2 v) - 1) / v.
 #define NOOK_LOBE_NORM_0 2.0
 #define NOOK_LOBE_NORM_1 2.0
 #define NOOK_LOBE_NORM_2 1.3333333

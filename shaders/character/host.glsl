@@ -1,5 +1,5 @@
-// Functions for a host's shader that lights with a scene's instances. `light` comes from nook_gl_view;
-// normals are unit vectors in world space; colours are linear RGB.
+// A host's shader can include these functions to shade the instances of a scene with their lights. `light`
+// comes from nook_gl_view; normals are unit vectors in world space; colours are linear RGB.
 #include "shaders/character/bent_normal.glsl"
 #include "shaders/character/light_layout.h"
 #include "shaders/core/texels.glsl"
@@ -8,8 +8,8 @@
 // shaders/character/light_layout.h defines the layout.
 uniform NOOK_TEXELS nook_scene_lights;
 
-// Returns the irradiance of the lobes on an open surface. Fits of probes may ring slightly below 0; negative
-// values are clamped.
+// Returns the irradiance of the lobes on an open surface. Lobes that were fitted to probes may ring slightly
+// below 0. Negative values are clamped to 0.
 vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
   int count = int(nook_texel(nook_scene_lights, light + NOOK_LIGHT_HEAD).x);
   vec3 sum = vec3(0.0);
@@ -22,8 +22,8 @@ vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
   return max(sum, 0.0);
 }
 
-// Returns the irradiance that occlusion by bodies, ground and occluders leaves. directional_ao is the vertex'
-// value of nook_gl_view.
+// Returns the irradiance that is left after occlusion by bodies, ground and occluders. Pass the directional
+// AO of the vertex from nook_gl_view.
 vec3 nook_scene_irradiance(int light, vec3 normal_ws, vec3 directional_ao) {
   return nook_scene_open_irradiance(light, normal_ws) * directional_ao;
 }

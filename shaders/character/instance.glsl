@@ -1,20 +1,20 @@
-// Declares where the compute passes find an instance's data. Positions are relative to the instance's origin,
-// so that a scene far from the world's origin keeps its precision.
+// Declares the buffer and the record in which compute passes find an instance's data. Positions are relative
+// to the instance's origin, so that a scene far from the world's origin keeps its precision.
 #include "shaders/character/constants.h"
 #include "shaders/character/layout.h"
 
-// What the CPU sends for an update of the chunk: records, bones, casters and lights, with floats as bits.
-// Element numbers in a record are indices into the stream.
+// The data that the CPU uploads for an update of the chunk: records, bones, casters and lights, with floats
+// stored as their bits. The first_* fields of a record are indices into this stream, except for first_sphere.
 layout(std430, binding = NOOK_BINDING_STREAM) readonly buffer NookStream {
   uvec4 nook_stream[];
 };
 
 struct NookRecord {
-  uint first_bone;    // three rows of each 3x4 matrix
-  uint first_sphere;  // in the scene's spheres
-  uint place;         // of the instance in its chunk
-  bool self;          // its spheres darken it
-  uint light;         // as light_layout.h has it; 0: none
+  uint first_bone;    // each bone has the three rows of its 3x4 matrix
+  uint first_sphere;  // index into the scene's spheres
+  uint place;         // index of the instance in its chunk
+  bool self;          // true if the instance's own spheres darken it
+  uint light;         // index of a light with the layout of light_layout.h; 0: no light
   uint first_caster, caster_count;
   uint first_exact, exact_count;
 };

@@ -1,6 +1,6 @@
-// The effect of one sphere on one key point, with the formulas and names of sdk/src/character/kernel.h.
-// delta2 is the squared distance of the centre in radii. xi is the height of the centre above the key point's
-// horizon in radii.
+// Computes the effect of one sphere on one key point, with the formulas and names of
+// sdk/src/character/kernel.h. delta2 is the squared distance of the sphere's centre, and xi the height of the
+// centre above the key point's horizon. Both are in units of the radius.
 #include "shaders/character/constants.h"
 
 float nook_visibility_paper(float xi) { return max(xi * inversesqrt(4.0 * xi * xi + 1.0) + 0.5, 0.0); }
@@ -12,7 +12,8 @@ float nook_shadow_term(float xi, float delta2) {
   float inside = max(-e, 0.0);
   return (0.75 + 6.0 * inside) / (1.0 + 4.0 * max(e, inside)) * nook_visibility_paper(xi);
 #elif NOOK_KERNEL_FORM == NOOK_KERNEL_NOOK
-  // Below the horizon xi + sqrt(xi^2 + 1) cancels; rounding must not leave a negative number for the powers.
+  // Below the horizon, xi + sqrt(xi^2 + 1) cancels. max() prevents a negative result of rounding, which the
+  // powers could not handle.
   float t = inversesqrt(delta2 + NOOK_KERNEL_CORE);
   return max(0.5 * (xi + sqrt(xi * xi + 1.0)), 0.0) * t * t * t;
 #else
@@ -20,7 +21,7 @@ float nook_shadow_term(float xi, float delta2) {
 #endif
 }
 
-// Powers of the norm (slide 20). The usual exponents need no logarithm.
+// Powers for the norm (slide 20). The common exponents are computed without a logarithm.
 float nook_raised(float y, float gamma) {
   if (gamma == 1.5) return y * sqrt(y);
   if (gamma == 2.0) return y * y;
@@ -51,12 +52,12 @@ float nook_form_factor_exact(float xi, float delta2) {
   return f + max(1.0 - f, 0.0) * max(1.0 - delta2, 0.0);
 }
 
-// Returns the optical depth of a caster, from the sum over its spheres; sdk/src/character/kernel.h has the
-// reason.
+// Returns the optical depth of a caster from the sum over its spheres. sdk/src/character/kernel.h gives the
+// reason for the formula.
 float nook_solid_depth(float d) { return d + NOOK_SOLID_DEPTH * d * d; }
 
-// Returns the same share without angles, for the many spheres of a caster; sdk/src/character/kernel.h has the
-// derivation.
+// Returns an approximation of the same share without inverse trigonometric functions, for the many spheres of
+// a caster. It is derived in sdk/src/character/kernel.h.
 float nook_form_factor_fast(float xi, float delta2) {
   float a = inversesqrt(max(delta2, 1.0));
   float a2 = a * a;

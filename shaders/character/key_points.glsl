@@ -1,13 +1,14 @@
-// Declares what the passes over key points share. There is one thread for each key point; y is the instance.
-// Spheres are copied to shared memory, from which all threads of the group read.
+// The declarations that the passes over key points share. There is one thread for each key point; the y
+// coordinate is the instance. Spheres are first copied to shared memory, and all threads of the group read
+// them there.
 #include "shaders/character/instance.glsl"
 #include "shaders/character/kernel.glsl"
 
 const uint nook_tile_size = uint(NOOK_GROUP_SIZE);
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-// The stream has two elements for each caster: its origin minus the receiver's, first sphere; number of
-// spheres. It has one for each exact sphere: centre, 1 / radius.
+// The stream has two elements for each caster: (the caster's origin minus the receiver's origin, index of the
+// first sphere) and (number of spheres). It has one element for each exact sphere: centre, 1 / radius.
 layout(std430, binding = NOOK_BINDING_SPHERES) readonly buffer NookSpheres {
   vec4 nook_sphere[];  // two for each: centre, 1 / radius; caster weight
 };
@@ -16,14 +17,16 @@ layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookKeyPoints {
 };
 
 layout(location = NOOK_LOCATION_FIRST_RECORD) uniform uint nook_first_record;
-layout(location = NOOK_LOCATION_FIRST_SPHERE) uniform uint nook_first_sphere;  // of the level of detail, in the instance's spheres
+layout(location = NOOK_LOCATION_FIRST_SPHERE) uniform uint nook_first_sphere;  // first sphere of the level of detail,
+                                                                               // relative to the instance's spheres
 layout(location = NOOK_LOCATION_SPHERE_COUNT) uniform uint nook_sphere_count;
-layout(location = NOOK_LOCATION_FIRST_KEY_POINT) uniform uint nook_first_key_point;  // of the level of detail
+layout(location = NOOK_LOCATION_FIRST_KEY_POINT) uniform uint nook_first_key_point;  // first key point of the level of detail
 layout(location = NOOK_LOCATION_KEY_POINT_COUNT) uniform uint nook_key_point_count;
 layout(location = NOOK_LOCATION_GAMMA) uniform float nook_gamma;
-layout(location = NOOK_LOCATION_COMPOSED) uniform int nook_composed;  // 0: added spheres join the one norm
+layout(location = NOOK_LOCATION_COMPOSED) uniform int nook_composed;  // 0: added spheres are summed in the
+                                                                      // same norm as the body's own
 layout(location = NOOK_LOCATION_SHADOW_STRIDE) uniform uint nook_shadow_stride;
-layout(location = NOOK_LOCATION_SHADOW_OFFSET) uniform uint nook_shadow_offset;  // in the instance's shadows
+layout(location = NOOK_LOCATION_SHADOW_OFFSET) uniform uint nook_shadow_offset;  // offset within the instance's shadows
 
 shared vec4 nook_tile[nook_tile_size];
 shared float nook_tile_weight[nook_tile_size];
@@ -32,13 +35,13 @@ struct NookPoint {
   vec3 position, normal;
 };
 
-// Returns the height above the horizon and the squared distance, both in radii.
+// Returns the sphere's height above the horizon and its squared distance, both in units of its radius.
 vec2 nook_see(vec4 sphere, NookPoint point) {
   vec3 d = (sphere.xyz - point.position) * sphere.w;
   return vec2(dot(d, point.normal), dot(d, d));
 }
 
-// Every thread of the group must call this with the same arguments.
+// Copies spheres to shared memory. Every thread of the group must call it with the same arguments.
 void nook_stage(uint first, uint count) {
   barrier();
   uint i = gl_LocalInvocationID.x;
@@ -50,7 +53,7 @@ void nook_stage(uint first, uint count) {
   barrier();
 }
 
-// Blends up to four bones linearly. The normal is renormalised, and stays zero if opposite bones cancel it.
+// Blends up to four bones linearly. The normal is renormalised. If opposite bones cancel it, it stays zero.
 void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPoint surface) {
   uint k = uint(NOOK_KEY_POINT_VEC4S) * key_point;
   vec4 bones = nook_rest_key_point[k + 4u], weights = nook_rest_key_point[k + 5u];

@@ -1,25 +1,27 @@
-// Numbers that the passes over characters share with the C++ that runs them: bindings of buffers, locations
-// of uniforms and layouts of arrays. C++ and GLSL both include this file.
+// Constants that the shader passes over characters share with the C++ code that runs them: bindings of
+// buffers, locations of uniforms and layouts of arrays. Both C++ and GLSL include this file.
 #ifndef NOOK_CHARACTER_LAYOUT_H
 #define NOOK_CHARACTER_LAYOUT_H
 
-// Bindings of shader storage blocks. No pass has more than four, because OpenGL ES 3.1 guarantees no more.
+// Bindings of shader storage blocks. A pass uses at most four of them, because OpenGL ES 3.1 does not
+// guarantee more.
 #define NOOK_BINDING_STREAM 0
 #define NOOK_BINDING_MODEL 1
 #define NOOK_BINDING_SPHERES 2
-// Shadows or colours at key points: where they are written, and where vertices.comp reads them.
+// Shadows or colours at key points. Passes over key points write them to this binding, and vertices.comp
+// reads them from it.
 #define NOOK_BINDING_KEY_POINTS 3
 #define NOOK_BINDING_VERTEX_INPUT 2
 #define NOOK_BINDING_AO 3
 #define NOOK_BINDING_COUNT 4
 
-// Threads of a group. Passes over key points stage this many spheres at a time in shared memory.
+// Number of threads in a group. Passes over key points copy this many spheres at a time to shared memory.
 #define NOOK_GROUP_SIZE 64
 #define NOOK_VERTEX_GROUP_SIZE 128
 
-// Locations of uniforms: of spheres.comp,
+// Uniform locations of spheres.comp.
 #define NOOK_LOCATION_SPHERES_COUNT 0
-// of the passes over key points (shadows.comp, colours.comp),
+// Uniform locations of the passes over key points (shadows.comp, colours.comp).
 #define NOOK_LOCATION_FIRST_RECORD 0
 #define NOOK_LOCATION_FIRST_SPHERE 1
 #define NOOK_LOCATION_SPHERE_COUNT 2
@@ -29,23 +31,24 @@
 #define NOOK_LOCATION_COMPOSED 6
 #define NOOK_LOCATION_SHADOW_STRIDE 7
 #define NOOK_LOCATION_SHADOW_OFFSET 8
-// of the passes that spread a level's key points (spread.comp, colours_spread.comp),
+// Uniform locations of the passes that derive all key points of a coarser level (spread.comp,
+// colours_spread.comp).
 #define NOOK_LOCATION_SPREAD_FIRST_RECORD 0
 #define NOOK_LOCATION_SPREAD_KEY_POINT_COUNT 1
 #define NOOK_LOCATION_SPREAD_SHADOW_STRIDE 2
 #define NOOK_LOCATION_SPREAD_LEVEL 3
-// and of vertices.comp.
+// Uniform locations of vertices.comp.
 #define NOOK_LOCATION_FILE_VERTEX_COUNT 0
 #define NOOK_LOCATION_VERTEX_COUNT 1
 #define NOOK_LOCATION_INFLUENCE_PAIRS 2
 #define NOOK_LOCATION_VERTEX_SHADOW_STRIDE 3
-// Locations of the passes over poses from the GPU: of pose_convert.comp,
+// Uniform locations of pose_convert.comp, for poses that are on the GPU.
 #define NOOK_LOCATION_POSE_BONE_COUNT 0
 #define NOOK_LOCATION_POSE_LAYOUT 1
 #define NOOK_LOCATION_POSE_IS_HALF 2
 #define NOOK_LOCATION_POSE_STRIDE_WORDS 3
 #define NOOK_LOCATION_POSE_WINDOW 4
-// and of pose_place.comp.
+// Uniform locations of pose_place.comp.
 #define NOOK_LOCATION_PLACED_BONE_COUNT 0
 
 // Attributes of vertices.vert: a bias, then for each quad of influences its key points, alphas and blend
@@ -62,19 +65,19 @@
 #define NOOK_OUTPUT_COLOUR 1
 #define NOOK_OUTPUT_GREY 2
 
-// This bit beside an instance's place says that its own spheres darken it.
+// This bit in the same word as an instance's place is set if the instance's own spheres darken it.
 #define NOOK_RECORD_SELF 0x80000000u
-// This bit says that its pose is on the GPU, and that pose_place.comp writes its bones.
+// This bit is set if the instance's pose is on the GPU. pose_place.comp then writes its bones.
 #define NOOK_RECORD_POSED 0x40000000u
 #define NOOK_RECORD_PLACE 0x3fffffffu
 
-// A bone without a transform keeps its matrix.
+// Marks a bone without a transform. Such a bone keeps its matrix.
 #define NOOK_POSE_NO_TRANSFORM 0xffffffffu
-// What a pose may hold at most: metres, and the scale of a bone (sdk/src/core/geometry.h).
+// Limits for a pose: positions in metres, and the scale of a bone (sdk/src/core/geometry.h).
 #define NOOK_POSE_MAX_METRES 1e9
 #define NOOK_POSE_MAX_SCALE 1e6
 
-// Elements of the arrays in storage buffers.
+// Number of array elements per item in storage buffers.
 #define NOOK_RECORD_UVEC4S 2      // of an instance
 #define NOOK_SPHERE_VEC4S 2       // centre, 1 / radius; caster weight
 #define NOOK_BONE_ROWS 3          // of a 3x4 matrix

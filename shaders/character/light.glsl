@@ -1,10 +1,11 @@
-// The light of an instance and what occludes it; derived in sdk/src/character/directional_occlusion.h.
+// The light of an instance, and how spheres occlude it. The formulas are derived in
+// sdk/src/character/directional_occlusion.h.
 #include "shaders/core/constants.h"
 #include "shaders/character/instance.glsl"
 #include "shaders/character/light_layout.h"
 #include "shaders/probe/lobe.glsl"
 
-// Returns texel i of a light in the stream; light_layout.h numbers them.
+// Returns texel i of a light in the stream. light_layout.h lists the texels.
 vec4 nook_light(uint light, int i) { return nook_streamed(light + uint(i)); }
 // Returns the first of the two texels of a lobe.
 int nook_lobe_texel(int lobe) { return NOOK_LIGHT_LOBES + NOOK_LIGHT_LOBE_TEXELS * lobe; }
@@ -32,7 +33,8 @@ vec3 nook_inverse_hemisphere(uint light, vec3 n) {
   return 1.0 / max(nook_mean_radiance(light, n * NOOK_COSINE_LOBE_SHARPNESS), nook_light(light, NOOK_LIGHT_DARKEST).xyz);
 }
 
-// The unit vector towards the part of a caster above the horizon, and its cosine with the normal.
+// The unit vector towards the part of a caster that is above the horizon, and the cosine between this vector
+// and the normal.
 struct NookSight {
   vec3 towards;
   float cosine;
@@ -56,7 +58,8 @@ vec3 nook_light_ratio(uint light, vec3 inverse, vec3 n, NookSight sight, float s
   return clamp(behind * inverse, 0.0, NOOK_LARGEST_RATIO);
 }
 
-// Returns the share below the horizon of a lobe of sharpness m whose vector rises `height` above it.
+// Returns the share of a lobe that is below the horizon. m is the lobe's sharpness, and `height` is the
+// height of its vector above the horizon.
 float nook_share_below(float height, float m) {
   float x = height * inversesqrt(m * 2.0 * m / (m + 4.0) + NOOK_BELOW_WIDTH), a = abs(x);
   float p = (((NOOK_BELOW_4 * a + NOOK_BELOW_3) * a + NOOK_BELOW_2) * a + NOOK_BELOW_1) * a + 1.0;
@@ -105,7 +108,7 @@ vec3 nook_light_of(uint light, NookBands bands) {
   return sum;
 }
 
-// Sums the terms, each times the light that it takes.
+// Sums the terms, each multiplied by the light that it removes.
 vec3 nook_coloured_sum(uint light, NookBands gathered, vec3 n) {
   NookBands open = NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   nook_gather(open, n * NOOK_COSINE_LOBE_SHARPNESS, 1.0);

@@ -1,11 +1,11 @@
-// Says where the texels of an instance's light are in the texture of all lights. C++ and GLSL both include
-// this file.
+// Defines the layout of an instance's light in the texture of all lights. Both C++ and GLSL include this
+// file.
 #ifndef NOOK_CHARACTER_LIGHT_LAYOUT_H
 #define NOOK_CHARACTER_LIGHT_LAYOUT_H
 
-// An instance's light begins with the number of lobes and the ground's normal. Then come the darkest mean
-// radiance, with 1 if there is a ground, and ten texels of the light's bands. Each lobe has two: axis and
-// sharpness, then amplitude and the share that the ground leaves.
+// The first texel of a light holds the number of lobes and the ground's normal. The second holds the lower
+// bound of the mean radiance, and 1 if there is a ground. Then come ten texels with the light's bands. Then
+// come two texels for each lobe: axis and sharpness; amplitude and the share that the ground does not hide.
 #define NOOK_LIGHT_HEAD 0
 #define NOOK_LIGHT_DARKEST 1
 #define NOOK_LIGHT_SCALAR 2

@@ -1,7 +1,7 @@
 // Removes shear and uneven scale from the matrix of a bone, as sdk/src/character/pose_source.cpp and
 // sdk/src/core/affine.cpp do in double precision. A matrix is given by its three columns.
 
-// True for the small deviations that exporters and rounding cause. They are kept.
+// True for small deviations, which come from exporters and from rounding. Such matrices are not projected.
 bool nook_is_kept(mat3 axes) {
   vec3 squared = vec3(dot(axes[0], axes[0]), dot(axes[1], axes[1]), dot(axes[2], axes[2]));
   float shortest = min(squared.x, min(squared.y, squared.z));
@@ -10,7 +10,8 @@ bool nook_is_kept(mat3 axes) {
   return shortest > 0.0 && 0.5 * (longest / shortest - 1.0) <= 1e-4 && shear <= 1e-4 * longest;
 }
 
-// Returns the columns of a rotation from the first two columns, with stand-ins where they vanish.
+// Returns a rotation that is computed from the first two columns. If a column vanishes, another direction
+// replaces it.
 mat3 nook_gram_schmidt(mat3 a) {
   float size = length(a[0]);
   vec3 x = size > 1e-6 ? a[0] / size : vec3(1.0, 0.0, 0.0);
@@ -25,8 +26,8 @@ vec3 nook_turned(vec3 axis, float angle, vec3 v) {
   return v * c + cross(axis, v) * sin(angle) + axis * (dot(axis, v) * (1.0 - c));
 }
 
-// This is equation 7 of Mueller, Bender, Chentanez, Macklin 2016, "A Robust Method to Extract the Rotational
-// Part of Deformations". Floats are exact to 1e-7, so that the loop ends earlier than on the CPU.
+// Uses equation 7 of Mueller, Bender, Chentanez, Macklin 2016, "A Robust Method to Extract the Rotational
+// Part of Deformations". The precision of floats is 1e-7, so the loop ends earlier than on the CPU.
 mat3 nook_nearest_rotation(mat3 a) {
   mat3 r = nook_gram_schmidt(a);
   for (int turn = 0; turn < 60; ++turn) {
@@ -41,14 +42,14 @@ mat3 nook_nearest_rotation(mat3 a) {
   return nook_gram_schmidt(r);
 }
 
-// Returns the nearest rotation or mirrored rotation with one scale above 0.
+// Returns the nearest similarity: a rotation, possibly mirrored, with one scale above 0.
 mat3 nook_nearest_similarity(mat3 axes) {
   float norm = sqrt(dot(axes[0], axes[0]) + dot(axes[1], axes[1]) + dot(axes[2], axes[2]));
   mat3 a = norm > 0.0 ? mat3(axes[0] / norm, axes[1] / norm, axes[2] / norm) : mat3(0.0);
-  // The mirror image of a mirroring matrix is turned in its place: x is turned round on both sides.
+  // If the matrix mirrors, solves the mirrored problem instead: x is negated before and after the matrix.
   float side = dot(a[0], cross(a[1], a[2])) < -1e-6 ? -1.0 : 1.0;
   mat3 flip = mat3(side, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-  // Only the columns' x is turned round; the scale of the mirrored matrix is the same.
+  // Only the x of the columns is negated. This does not change the scale.
   mat3 upright = a * flip;
   mat3 r = nook_nearest_rotation(upright);
   float scale = (dot(upright[0], r[0]) + dot(upright[1], r[1]) + dot(upright[2], r[2])) / 3.0 * norm;

@@ -1,4 +1,4 @@
-// Writes each value to its own word of a host's buffer, at equal distances.
+// Writes each value to its own word in a host's buffer. The words are nook_stride words apart.
 #include "shaders/character/pack.glsl"
 
 layout(local_size_x = 64) in;
@@ -11,8 +11,8 @@ layout(std430, binding = 1) writeonly buffer NookTarget {
 };
 
 layout(location = 0) uniform uint nook_count;
-layout(location = 1) uniform uint nook_first_source;  // values before the first one
-layout(location = 2) uniform uint nook_first_target;  // words before the first one
+layout(location = 1) uniform uint nook_first_source;  // index of the first value to read
+layout(location = 2) uniform uint nook_first_target;  // index of the first word to write
 layout(location = 3) uniform uint nook_stride;        // words
 
 void main() {

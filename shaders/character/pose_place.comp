@@ -1,5 +1,6 @@
-// Copies bones from the poses on the GPU to where an update reads bones. There is one group for each instance of
-// the update. If a number of the pose is not finite, the instance is open and casts nothing.
+// Copies bones from the poses on the GPU to the stream, where an update reads bones. There is one group for
+// each instance of the update. If a value of the pose is not finite, the instance gets the AO of an open
+// instance and does not cast.
 #include "shaders/character/layout.h"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
@@ -8,7 +9,7 @@ layout(std430, binding = NOOK_BINDING_STREAM) buffer NookStream {
   uvec4 nook_stream[];  // begins with the records of instance.glsl
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookPosed {
-  vec4 nook_posed[];  // as pose_convert.comp writes it
+  vec4 nook_posed[];  // written by pose_convert.comp
 };
 
 layout(location = NOOK_LOCATION_PLACED_BONE_COUNT) uniform uint nook_bone_count;
@@ -16,7 +17,7 @@ layout(location = NOOK_LOCATION_PLACED_BONE_COUNT) uniform uint nook_bone_count;
 void main() {
   uint record = uint(NOOK_RECORD_UVEC4S) * gl_WorkGroupID.x;
   uvec4 head = nook_stream[record];
-  // Every thread has read the record before the first one changes it.
+  // Wait until every thread has read the record, because the first thread may change it.
   barrier();
   if ((head.z & NOOK_RECORD_POSED) != 0u) {
     uint rows = uint(NOOK_BONE_ROWS) * nook_bone_count;

@@ -1,4 +1,4 @@
-// The non-linear layer computes shadow and added occlusion at the key points of an instance.
+// The non-linear layer. Computes shadow and added occlusion at the key points of an instance.
 #include "shaders/character/key_points.glsl"
 
 layout(std430, binding = NOOK_BINDING_KEY_POINTS) writeonly buffer NookShadows {
@@ -35,7 +35,8 @@ float nook_depth(uint first, uint count, NookPoint point) {
 
 void main() {
   NookRecord record = nook_read_record(nook_first_record + gl_WorkGroupID.y);
-  // Threads beyond the end evaluate the last key point, so that all of them reach every barrier.
+  // Threads after the last key point evaluate the last key point, too, so that all threads reach every
+  // barrier.
   uint key_point = min(gl_GlobalInvocationID.x, nook_key_point_count - 1u);
   NookPoint fitted, surface;
   nook_pose(nook_first_key_point + key_point, record.first_bone, fitted, surface);

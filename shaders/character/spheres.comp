@@ -1,5 +1,5 @@
-// Transforms the proxy spheres of every instance that moved from rest space to the instance's own space.
-// There is one thread for each sphere; y is the instance.
+// For every instance that moved, transforms the proxy spheres from rest space to world axes, relative to the
+// instance's origin. There is one thread for each sphere; the y coordinate is the instance.
 #include "shaders/character/instance.glsl"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
@@ -24,7 +24,8 @@ void main() {
   vec4 p = vec4(rest.xyz, 1.0);
   vec4 x = nook_streamed(row);
   vec3 centre = vec3(dot(x, p), dot(nook_streamed(row + 1u), p), dot(nook_streamed(row + 2u), p));
-  // Under rigid or uniformly scaled matrices, each row of the linear part is as long as the scale.
+  // The matrices are rigid or have a uniform scale, so the length of each row of the linear part is the
+  // scale.
   float radius = rest.w * length(x.xyz);
   uint place = uint(NOOK_SPHERE_VEC4S) * (record.first_sphere + s);
   nook_sphere[place] = vec4(centre, 1.0 / max(radius, NOOK_MIN_SPHERE_RADIUS));

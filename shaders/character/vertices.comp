@@ -1,5 +1,5 @@
-// The linear layer computes the AO of every vertex in file order from a few key points. There is one thread
-// for each vertex; y is the instance. NOOK_OUTPUT is one of
+// The linear layer. Computes the AO of every vertex from a few key points, in file order. There is one thread
+// for each vertex; the y coordinate is the instance. NOOK_OUTPUT is one of
 //   NOOK_OUTPUT_AO      AO, one float for each vertex;
 //   NOOK_OUTPUT_COLOUR  directional occlusion of instances with a light, three floats;
 //   NOOK_OUTPUT_GREY    AO in all three channels, for the instances without light that live among those with one.
@@ -10,14 +10,15 @@ layout(local_size_x = NOOK_VERTEX_GROUP_SIZE) in;
 
 layout(std430, binding = NOOK_BINDING_VERTEX_INPUT) readonly buffer NookKeyPoints {
 #if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
-  vec4 nook_colour[];  // two for each key point: colour that multiplies the shadow, and the shadow; added occlusion
+  vec4 nook_colour[];  // two for each key point: colour that the shadow is multiplied by, shadow; added
+                       // occlusion
 #else
   vec2 nook_shadow[];  // shadow, added occlusion
 #endif
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookLinear {
-  // The welded vertex of each file vertex comes first. Then follow arrays over the welded vertices: bias, two
-  // key points in a word for each pair of influences, alphas, and blend weights.
+  // First comes the index of the welded vertex for each file vertex. Then come arrays over the welded
+  // vertices: bias; key points, two in a word; alphas; blend weights.
   uint nook_linear[];
 };
 layout(std430, binding = NOOK_BINDING_AO) writeonly buffer NookAo {
@@ -37,7 +38,7 @@ layout(location = NOOK_LOCATION_VERTEX_SHADOW_STRIDE) uniform uint nook_shadow_s
 #define NOOK_ADDED float
 #endif
 
-// Adds a key point; weights are alpha and blend weight.
+// Adds the share of a key point. `weights` are its alpha and its blend weight.
 void nook_add(inout NOOK_SHADOW shadow, inout NOOK_ADDED added, uint key_point, vec2 weights) {
 #if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
   vec4 coloured = nook_colour[uint(NOOK_COLOUR_VEC4S) * key_point];

@@ -1,5 +1,6 @@
 // The linear layer for OpenGL 3.3. It reads the shadows at key points from a texture buffer, and writes AO by
-// transform feedback. Each file vertex is one point, whose index picks the welded vertex with its attributes.
+// transform feedback. Each file vertex is drawn as one point. Its index selects the welded vertex, which has
+// the attributes.
 #include "shaders/character/layout.h"
 #include "shaders/character/linear.glsl"
 #include "shaders/core/texels.glsl"
@@ -17,7 +18,8 @@ layout(location = NOOK_ATTRIBUTE_BLEND_1) in vec4 nook_blend_1;
 // One texel holds shadow and added occlusion. With NOOK_LIGHT there are two: coloured shadow and shadow, then
 // added occlusion.
 uniform NOOK_TEXELS nook_shadows;
-uniform int nook_first_key_point;    // of the draw's first instance, in the page
+uniform int nook_first_key_point;    // index within the page of the first key point of the draw's first
+                                     // instance
 uniform int nook_key_point_count;
 uniform int nook_self;
 

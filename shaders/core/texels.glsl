@@ -1,6 +1,6 @@
 #ifndef NOOK_TEXELS
-// Tables of texels that are fetched by number. They are texture buffers on OpenGL. OpenGL ES and WebGL lack
-// those and have 2D textures, whose rows follow one another.
+// Tables of texels that are fetched by index. On OpenGL, they are texture buffers. OpenGL ES and WebGL do not
+// have texture buffers, so there they are 2D textures, which are filled row by row.
 #include "shaders/core/texel_layout.h"
 #ifdef GL_ES
 #define NOOK_TEXELS highp sampler2D

@@ -1,9 +1,10 @@
 // Computes the openness that the casters of a frame leave at a point. The table has four texels for each
-// body. They hold the centre of its sphere, with strength over cut-off and radius in one number; its first
-// part, the number of parts, and a squared distance; then one capsule. From that distance on, the capsule
-// stands for the body. A part has four texels, too: its centre and a squared distance; its first caster and
-// their number; then one capsule. A capsule is two texels, its ends with their radii for AO. Props and
-// occluders are bodies with one part and one caster.
+// body. The first holds the centre of the body's sphere, and one number that combines strength over cut-off
+// with the radius. The second holds the texel of the first part, the number of parts, and a squared distance.
+// The other two hold a capsule, which replaces the body from this distance on. A part has four texels, too:
+// its centre and a squared distance; the texel of its first caster and the number of casters; and a capsule
+// in two texels. Each capsule is stored as its two ends, with their radii for AO. Props and occluders are
+// bodies with one part and one caster.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/coverage.glsl"
 #ifdef NOOK_COLOURED
@@ -17,18 +18,19 @@
 uniform NOOK_TEXELS nook_world_casters;
 uniform int nook_world_groups;
 
-// Counts what the point has evaluated so far: capsules of all kinds, capsules that are casters, and bodies
-// whose reach was tested.
+// Count what was evaluated for this point so far: capsules of all kinds, capsules that are casters, and
+// bodies whose reach was tested.
 int nook_world_evaluated = 0;
 int nook_world_exact = 0;
 int nook_world_tested = 0;
 
-// Returns a texel of a part of a body; a stage may read it from its own memory.
+// Returns a texel of a part of a body. A stage may define it differently, to read the texel from its shared
+// memory.
 #ifndef nook_world_part_texel
 #define nook_world_part_texel(number) nook_texel(nook_world_casters, number)
 #endif
 
-// Returns the share of a body's casters that counts in this stage.
+// The share of a body's casters that counts in this stage.
 float nook_world_weight = 1.0;
 bool nook_world_far_bodies = NOOK_BODIES == NOOK_FAR_BODIES;
 
@@ -74,18 +76,18 @@ float nook_world_parts_open(int first, int last, vec3 point, vec3 normal) {
   return open;
 }
 
-// Returns true if a body takes less than the cut-off; bound is the first of its texels. No point of its
-// sphere is nearer than its centre's distance minus its radius, and none is higher above the horizon than its
-// top.
+// Returns true if a body reduces AO by less than the cut-off. `bound` is the combined number in the body's
+// first texel. The nearest point of the body's sphere has the centre's distance minus the radius. No point of
+// the sphere is higher above the horizon than its top.
 bool nook_world_out_of_reach(float bound, float distance, float height) {
   float radius = bound < NOOK_ENDLESS_BOUND ? fract(bound) * NOOK_LARGEST_RADIUS : NOOK_ENDLESS_BOUND;
   float gap = distance - radius, top = height + radius;
-  // The casters cover at most strength / gap^2, and their cosine is at most top / gap.
+  // The casters cover at most strength / gap^2, and the cosine of their directions is at most top / gap.
   return top < 0.0 || (gap > 0.0 && bound * min(top, gap) < NOOK_STRENGTH_STEPS * gap * gap * gap);
 }
 
-// Returns the share of far bodies. The argument is the squared distance, divided by the one from which one
-// capsule stands for the body.
+// Returns the share with which a body counts as a far body. `ratio` is the body's squared distance, divided
+// by the squared distance from which on one capsule replaces the body.
 float nook_world_far_share(float ratio) {
   return clamp((ratio - NOOK_FAR_FROM) / (1.0 - NOOK_FAR_FROM), 0.0, 1.0);
 }

@@ -1,20 +1,23 @@
-// Constants of formulas in sdk/src/world (coverage.h, cone.h) and in these shaders; the headers describe
-// them. C++ and GLSL both include this file.
+// Constants of formulas in sdk/src/world (coverage.h, cone.h) and in these shaders. The headers describe
+// them. Both C++ and GLSL include this file.
 #ifndef NOOK_WORLD_CONSTANTS_H
 #define NOOK_WORLD_CONSTANTS_H
 
-// The arc cosine within 7e-5: Abramowitz and Stegun 4.4.45.
+// The coefficients of an arc cosine with an error of at most 7e-5: Abramowitz and Stegun 4.4.45.
 #define NOOK_ARC_0 1.5707288
 #define NOOK_ARC_1 -0.2121144
 #define NOOK_ARC_2 0.0742610
 #define NOOK_ARC_3 -0.0187293
 
-// If the squared sine of the angle between a capsule's ends is below this, they count as one place.
+// If the squared sine of the angle between the ends of a capsule is below this, the ends are treated as one
+// point.
 #define NOOK_SMALLEST_SPREAD 1e-6
-// The largest sine of an end's angular radius. It is just below 1, the sine on the surface.
+// The largest sine of the angular radius of a capsule's end. It is just below 1, which is the sine for a
+// point on the surface.
 #define NOOK_LARGEST_SINE 0.9999
 
-// The share below the horizon, w1 (1 - t^2) + w2 (1 - t^2)^2 with w = b (c0 + b (c1 + b c2)).
+// The coefficients of the share below the horizon, w1 (1 - t^2) + w2 (1 - t^2)^2, with w = b (c0 + b (c1 + b
+// c2)) for each of w1 and w2.
 #define NOOK_HORIZON_10 1.09177
 #define NOOK_HORIZON_11 -1.52723
 #define NOOK_HORIZON_12 0.68546
@@ -22,27 +25,29 @@
 #define NOOK_HORIZON_21 1.05297
 #define NOOK_HORIZON_22 -0.51604
 
-// w1 and w2 of a small disc, b = 1: sums of the above.
+// w1 and w2 of a small disc, where b = 1. They are sums of the coefficients above.
 #define NOOK_HORIZON_FAR_1 0.25
 #define NOOK_HORIZON_FAR_2 0.0378
 
-// The bands of a cosine-weighted disc: A1 = 1 - s (c11 + s c12), A2 = 1 - s c21, A3 = (1 - s)^(3/2), A4 = 1 -
-// s (c41 - s c42).
+// The coefficients of the bands of a cosine-weighted disc: A1 = 1 - s (c11 + s c12), A2 = 1 - s c21, A3 = (1
+// - s)^(3/2), A4 = 1 - s (c41 - s c42).
 #define NOOK_DISC_BAND_11 0.25
 #define NOOK_DISC_BAND_12 0.0833333
 #define NOOK_DISC_BAND_21 0.75
 #define NOOK_DISC_BAND_41 2.5
 #define NOOK_DISC_BAND_42 1.4583333
 
-// Texels that the table of casters has for a body, a part of it, and a caster. A tile's list has one texel
-// for its first entry and their number; an entry is a body's number, four to a texel.
+// The table of casters has this many texels for a body, for a part of a body and for a caster. In the lists
+// of tiles, each tile has one texel with the position and the number of its entries. An entry is the index of
+// a body; a texel holds four entries.
 #define NOOK_BODY_TEXELS 4
 #define NOOK_PART_TEXELS 4
 #define NOOK_CASTER_TEXELS 2
 
-// The strength of a body over the cut-off is counted in steps of the inverse of this, square metres. The
-// fraction of the number is the body's radius in metres divided by the largest one. Bodies with larger
-// numbers reach everything, and have the endless number.
+// Encodes strength over cut-off and radius of a body in one number. The integer part is the strength over the
+// cut-off in steps of 1 / NOOK_STRENGTH_STEPS square metres. The fraction is the radius divided by
+// NOOK_LARGEST_RADIUS, in metres. A body with a larger strength or radius gets NOOK_ENDLESS_BOUND, which
+// means that it reaches everything.
 #define NOOK_STRENGTH_STEPS 8.0
 #define NOOK_LARGEST_RADIUS 4.0
 #define NOOK_LARGEST_STRENGTH 4096.0
@@ -52,38 +57,41 @@
 #define NOOK_MAX_PARTS 16
 #define NOOK_WORLD_GROUP_SIZE 8
 
-// Which bodies a stage evaluates, NOOK_BODIES: all; the ones nearer than the distance from which one capsule
-// stands for them; or the farther ones. From this share of the squared distance on, both are blended.
+// Values of NOOK_BODIES, which selects the bodies that a stage evaluates: all bodies, near bodies or far
+// bodies. Far bodies are farther away than the distance from which on one capsule replaces the body. Between
+// the share NOOK_FAR_FROM of this squared distance and the distance itself, near and far results are blended.
 #define NOOK_ALL_BODIES 0
 #define NOOK_NEAR_BODIES 1
 #define NOOK_FAR_BODIES 2
 #define NOOK_FAR_FROM 0.6
-// Pixels along a side for each texel of the far bodies' AO in a pass of the largest images. A pass of smaller
-// images defines less.
+// The AO of far bodies has one texel for this many pixels along each side, in a pass for the largest images.
+// A pass for smaller images defines a smaller step.
 #ifndef NOOK_FAR_STEP
 #define NOOK_FAR_STEP 8
 #endif
 
-// The values of nook_world_view that show numbers.
+// The values of nook_world_view that show counts.
 #define NOOK_VIEW_CASTERS 1
 #define NOOK_VIEW_EXACT_CASTERS 2
 #define NOOK_VIEW_TESTS 3
 #define NOOK_VIEW_FAR_CASTERS 4
 #define NOOK_VIEW_FAR_TESTS 5
 
-// The share of a unit disc beyond a line, 0.5 + x (c1 + c3 x^2): c1 is -2 / pi, the slope at the middle.
+// The coefficients of the share of a unit disc beyond a line, 0.5 + x (c1 + c3 x^2). c1 is -2 / pi, the slope
+// at the middle.
 #define NOOK_SEGMENT_1 -0.63662
 #define NOOK_SEGMENT_3 0.13662
-// Up to this radius, in radii of a part, a capsule counts as a rectangle; from 1 more on, by its round edge.
+// Up to this radius, in units of a part's radius, a capsule is treated as a rectangle. From this radius plus
+// 1 on, only its round edge is used. In between, both are blended.
 #define NOOK_NARROW_RADIUS 0.75
 
-// The equal parts of a cone of light.
+// Number of equal parts of a cone of light.
 #define NOOK_CONE_PARTS 16
-// Uniforms of light.glsl, which describes them.
+// Sizes of uniform arrays of light.glsl, where they are described.
 #define NOOK_CONE_VEC4S 18
 #define NOOK_LIGHT_TERMS 25
 #define NOOK_LIGHT_VEC4S 26
-// Texels of a body that casts the shadow of a cone.
+// A body that shadows the cone of light has this many texels.
 #define NOOK_SHADE_TEXELS 2
 
 #endif

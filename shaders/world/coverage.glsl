@@ -46,8 +46,8 @@ float nook_above_horizon(float factor, float size2, float lowest) {
   return max(size * sqrt(size) * (0.5 * (1.0 - t) - q * (w2 * q + w1)) + factor, 0.0);
 }
 
-// Takes the ends of the capsule with their radii, and a point with its unit normal, all in the same space.
-// Returns a share in [0, 1]; phi gets the vector of the region.
+// Pass the ends of the capsule with their radii, and a point with its unit normal, all in the same space.
+// Returns the share in [0, 1], and writes the vector of the region to `phi`.
 float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out vec3 phi) {
   vec3 a = end_a.xyz - point, b = end_b.xyz - point;
   float ia = inversesqrt(max(dot(a, a), 1e-24)), ib = inversesqrt(max(dot(b, b), 1e-24));
@@ -62,13 +62,13 @@ float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out v
   return min(nook_above_horizon(hull.x * nu + hull.y * nv, size2, min(nu / su, nv / sv)), 1.0);
 }
 
-// The same from far away, where a capsule is a narrow strip. It is within 0.003 of the above for 99 of 100
-// capsules whose ends have sines below 0.25. Let g be the vector in the plane of u and v with dot(g, u) = s_u
-// and dot(g, v) = s_v. Then the strip's sine along the arc of w from u to v is dot(g, w), and its integral 2
-// / pi dot(g, w) w over the arc is
+// The same for a distant capsule, which is treated as a narrow strip. For 99 % of capsules whose ends have
+// sines below 0.25, the difference from the function above is at most 0.003. Let g be the vector in the plane
+// of u and v with dot(g, u) = s_u and dot(g, v) = s_v. Then the strip's sine along the arc of w from u to v
+// is dot(g, w), and its integral 2 / pi dot(g, w) w over the arc is
 //   (lambda + s) (s_u + s_v) / (2 (1 + c)) (u + v) + (lambda - s) (s_u - s_v) / (2 (1 - c)) (u - v), over pi,
-// where lambda is the angle between both and s its sine. The ends add halves of their discs. Above the
-// horizon, the region counts as the disc of the same vector at a great distance.
+// where lambda is the angle between both and s its sine. The ends add half of their discs. For the share
+// above the horizon, the region is treated as a very distant disc with the same vector.
 float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out vec3 phi) {
   vec3 a = end_a.xyz - point, b = end_b.xyz - point;
   float ia = inversesqrt(dot(a, a)), ib = inversesqrt(dot(b, b));
@@ -77,13 +77,13 @@ float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, o
   float nu = dot(normal, a) * ia, nv = dot(normal, b) * ib;
   float lambda = nook_angle_of_versine(1.0 - c), s = sqrt(1.0 - c * c);
   float together = (lambda + s) * (su + sv) / (1.0 + c) * 0.159154943;
-  // (lambda - s) / (1 - c), over 2 pi, within 0.002 up to a right angle.
+  // Approximates (lambda - s) / (1 - c) / (2 pi), with an error of at most 0.002 up to a right angle.
   float apart = lambda * (0.00194 * lambda * lambda + 0.0530516) * (su - sv);
   float hu = together + apart + 0.5 * su * su, hv = together - apart + 0.5 * sv * sv;
   phi = (hu * ia) * a + (hv * ib) * b;
   float size2 = hu * hu + hv * hv + 2.0 * hu * hv * c;
   float factor = hu * nu + hv * nv;
-  // 1 / size, and the root of it.
+  // 1 / size, and its square root.
   float inverse = inversesqrt(size2 + 1e-20), inverse_root = sqrt(inverse);
   float t = clamp(factor * (inverse * inverse_root), -1.0, 1.0), q = 1.0 - t * t;
   float cube = size2 * inverse_root;

@@ -1,21 +1,21 @@
-// Runs a stage at half resolution as a dispatch. A group of threads reads the bodies of its tile once, and
-// leaves out bodies that reach no point of the box around its surfaces. It keeps the others where all of its
-// threads read them.
+// Runs a stage at half resolution as a compute dispatch. A group of threads reads the bodies of its tile
+// once, and skips bodies that do not reach any point of the box around the group's surfaces. It keeps the
+// remaining bodies in shared memory, where all of its threads read them.
 #define NOOK_GROUPS
 #define nook_world_part_texel(number) nook_group_texel[number]
 #include "shaders/world/constants.h"
 
 layout(local_size_x = NOOK_WORLD_GROUP_SIZE, local_size_y = NOOK_WORLD_GROUP_SIZE) in;
 
-// The number of bodies that a group keeps at a time. Each has one bit, so that their order is always the
-// same.
+// The number of bodies that a group keeps at a time. Each body has one bit in a mask, so that bodies are
+// always processed in the same order.
 #define NOOK_GROUP_BODIES 32
 shared uint nook_group_kept;
 shared vec4 nook_group_bound[NOOK_GROUP_BODIES], nook_group_parts[NOOK_GROUP_BODIES];
-// The parts of one near body, or the capsules that stand for far bodies.
+// The parts of one near body, or the capsules that replace far bodies.
 shared vec4 nook_group_texel[NOOK_MAX_PARTS * NOOK_PART_TEXELS];
-// The box around the group's surfaces, with integers that sort like the floats. For far bodies there are also
-// the box of the normals, and the minimum of dot(position, normal).
+// The box around the group's surfaces. Its floats are stored as integers that have the same order. For far
+// bodies, there are also the box of the normals, and the minimum of dot(position, normal).
 shared int nook_group_low[3], nook_group_high[3];
 #include "shaders/world/darken.glsl"
 #if NOOK_BODIES == NOOK_FAR_BODIES
@@ -67,8 +67,8 @@ void nook_bound_group(NookSurface surface, int thread) {
   barrier();
 }
 
-// Returns false if the body takes less than the cut-off at each point of the group, or counts in the other
-// stage.
+// Returns false if the body reduces AO by less than the cut-off at every point of the group, or if the body
+// is evaluated only in the other stage.
 bool nook_group_keeps(vec4 bound, vec4 parts) {
   vec3 low = nook_numbers(nook_group_low), high = nook_numbers(nook_group_high);
   vec3 nearest = bound.xyz - clamp(bound.xyz, low, high);
@@ -85,7 +85,7 @@ bool nook_group_keeps(vec4 bound, vec4 parts) {
   return !nook_world_out_of_reach(bound.w, sqrt(distance2), height);
 }
 
-// Reads the bodies of a list from its entry `begin` on.
+// Reads the bodies of a list, starting at entry `begin`.
 void nook_read_bodies(int first, int begin, int count, int thread) {
   barrier();
   if (thread == 0) nook_group_kept = 0u;
@@ -107,7 +107,8 @@ void nook_read_bodies(int first, int begin, int count, int thread) {
   barrier();
 }
 
-// Returns the openness that a kept body leaves at a thread's surface. All threads must call it.
+// Returns the openness that one kept body leaves at the thread's surface. All threads of the group must call
+// it.
 float nook_kept_open(int slot, NookSurface surface, int thread) {
   vec4 bound = nook_group_bound[slot], parts = nook_group_parts[slot];
 #if NOOK_BODIES != NOOK_FAR_BODIES
@@ -134,7 +135,7 @@ float nook_kept_open(int slot, NookSurface surface, int thread) {
 #if NOOK_BODIES == NOOK_NEAR_BODIES
 // The texels of far bodies around the group's pixels.
 #define NOOK_FAR_SIDE (2 * NOOK_WORLD_GROUP_SIZE / NOOK_FAR_STEP + 1)
-shared vec4 nook_group_far_place[NOOK_FAR_SIDE * NOOK_FAR_SIDE];  // the position; 1 where there is a surface
+shared vec4 nook_group_far_place[NOOK_FAR_SIDE * NOOK_FAR_SIDE];  // position; w is 1 if there is a surface
 shared vec3 nook_group_far_open[NOOK_FAR_SIDE * NOOK_FAR_SIDE];
 
 ivec2 nook_first_far_texel() {
@@ -160,7 +161,7 @@ void nook_read_far(int thread) {
 }
 #endif
 
-// pixel: the group's first one, which lies in the same tile as the others.
+// `pixel` is the first pixel of the group. All pixels of the group are in the same tile.
 float nook_group_open(ivec2 pixel, NookSurface surface, int thread) {
   if (nook_world_tile_columns == 0) return 1.0;
   nook_bound_group(surface, thread);

@@ -1,6 +1,7 @@
-// Computes the casters' AO for what the host's depth shows, for darken.frag and darken.comp. It is for every
-// pixel, or for every second pixel of every second row, which resolve.frag spreads. Then the AO by near
-// bodies is multiplied by the far bodies' AO, which was computed for every eighth pixel.
+// Computes the casters' AO for the surfaces in the host's depth image. darken.frag and darken.comp include
+// this file. AO is computed for every pixel, or for every second pixel of every second row, which
+// resolve.frag then upsamples. In the half-resolution form, far bodies are computed first, for every eighth
+// pixel, and the near bodies' AO is multiplied by their AO.
 #include "shaders/nnao/host_depth.glsl"
 #if NOOK_HALF
 #include "shaders/nnao/depth.glsl"
@@ -8,11 +9,12 @@
 #include "shaders/world/casters.glsl"
 
 uniform sampler2D nook_host_normal;
-// The lists of bodies that may reach a tile follow the casters: a texel for each tile, then the entries.
+// The lists of the bodies that may reach a tile are stored after the casters: one texel for each tile, then
+// the entries.
 uniform int nook_world_first_tile;
 uniform int nook_world_tile_columns;  // 0: no body reaches the view
 uniform int nook_world_tile_size;     // pixels along a side
-uniform int nook_world_counts;        // not 0: a nook_world_view that shows numbers over 255
+uniform int nook_world_counts;        // not 0: the nook_world_view that shows counts divided by 255
 
 #ifdef NOOK_LAYERED
 bool nook_world_replaced(ivec2 pixel, float above) {
@@ -27,9 +29,9 @@ bool nook_world_replaced(ivec2 pixel, float above) {
 #define NOOK_NORMAL_STEP 1
 #endif
 
-// Returns the depth of a pixel beside one of this stage. It is far away if there is no surface, or if the
-// layer has its own surface there. Otherwise the floor would get the normal of a foot on it, which faces the
-// viewer and is flatter.
+// Returns the depth of a neighbour of a pixel of this stage. Returns nook_no_surface if there is no surface,
+// or if the layer has its own surface there. Without the second rule, the floor next to a foot would get the
+// normal of the foot.
 float nook_world_depth_beside(ivec2 pixel) {
 #if NOOK_HALF
   return nook_depth_near(pixel / NOOK_NORMAL_STEP);
@@ -43,13 +45,14 @@ float nook_world_depth_beside(ivec2 pixel) {
 }
 
 // Returns the tangent along an axis from the steps to both neighbours, each weighted by the inverse square of
-// its change of depth. Past a silhouette, depth changes more steeply than on the pixel's own surface. axis:
-// of one pixel.
+// its change of depth. Across a silhouette, depth changes more than on the pixel's own surface. `axis` is one
+// pixel long.
 vec3 nook_world_tangent(ivec2 pixel, ivec2 axis, vec3 position) {
   ivec2 step = NOOK_NORMAL_STEP * axis;
   vec2 depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));
 #ifdef NOOK_LAYERED
-  // Between two fingers, the surface continues beyond them.
+  // Between two fingers of the layer, both neighbours may have no surface. Then the surface continues beyond
+  // the fingers.
   for (int i = 0; i < 7 && min(depths.x, depths.y) == nook_no_surface; ++i) {
     step += NOOK_NORMAL_STEP * axis;
     depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));
@@ -66,7 +69,7 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
     vec3 stored = texelFetch(nook_host_normal, pixel + nook_origin, 0).xyz;
     vec3 n = nook_normal_matrix * (stored * nook_normal_scale + nook_normal_bias);
     float size = length(n);
-    // If the length is outside these bounds, nothing was drawn here, or not a normal.
+    // If the length is outside these bounds, the image does not have a normal here.
     if (size > nook_shortest_normal && size < 1.0e6) return n / size;
   }
   vec3 x = nook_world_tangent(pixel, ivec2(1, 0), position), y = nook_world_tangent(pixel, ivec2(0, 1), position);
@@ -75,13 +78,15 @@ vec3 nook_world_normal(ivec2 pixel, vec3 position) {
 }
 
 #ifdef NOOK_COLOURED
-// The lists of bodies whose shadow may fall on a tile begin at this texel; the bodies follow them.
+// The first texel of the lists of bodies whose shadow may fall on a tile. The bodies are stored after these
+// lists.
 uniform int nook_world_first_light_tile;
 uniform int nook_world_first_shade;
 uniform int nook_world_light_columns;  // 0: there is no cone, or it is open
 
-// A texel of a list has four body numbers. The loops rotate it, so that the next number is always in x. With
-// an index that changes at run time, compilers would keep the vector in memory or compare four times.
+// A texel of a list holds four body indices. The loops rotate the vector, so that the next index is always in
+// x. With an index that is only known at run time, compilers would put the vector into memory or use four
+// comparisons.
 float nook_world_tile_light(ivec2 pixel, vec3 point) {
   if (nook_world_light_columns == 0) return 1.0;
   for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] = 1.0;
@@ -113,8 +118,8 @@ float nook_world_list_open(int first_tile, ivec2 pixel, vec3 point, vec3 normal)
   return open;
 }
 
-// Returns the depth of a pixel of this stage; at half resolution, depth.frag has left out what a layer
-// replaces.
+// Returns the depth of a pixel of this stage. At half resolution, depth.frag has already removed the pixels
+// that a layer replaces.
 float nook_world_depth(ivec2 pixel) {
 #if NOOK_HALF
   return nook_depth_at(pixel / 2);
@@ -130,8 +135,8 @@ float nook_world_depth(ivec2 pixel) {
 uniform sampler2D nook_far_open;
 uniform int nook_world_far;  // 0: no far body reaches the view
 
-// A texel of far bodies holds its point in view space, whether there is a surface, and what the bodies leave
-// open.
+// A texel of the far bodies' AO: its point in view space, whether there is a surface, and the openness that
+// the far bodies leave.
 struct NookFarTexel {
   vec3 position;
   bool there;
@@ -145,19 +150,21 @@ NookFarTexel nook_fetch_far(ivec2 texel) {
                       texelFetch(nook_far_open, texel, 0).rgb);
 }
 
-// A stage may keep these texels in its own memory.
+// A compute stage keeps these texels in shared memory.
 #ifdef NOOK_GROUPS
 NookFarTexel nook_far_texel(ivec2 texel);
 #else
 #define nook_far_texel nook_fetch_far
 #endif
 
-// Returns the openness by far bodies, from the four texels around this pixel, weighted by how near their
-// points lie to its plane. Alpha is 0 if none does.
+// Returns the openness that far bodies leave, interpolated from the four texels around this pixel. A texel
+// has a large weight if its point is near the plane of the pixel's surface. Alpha is 0 if no point is near
+// the plane.
 vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
   ivec2 low = pixel / NOOK_FAR_STEP, last = (nook_screen_size - 1) / NOOK_FAR_STEP;
   vec2 place = vec2(pixel - NOOK_FAR_STEP * low) / float(NOOK_FAR_STEP);
-  // A point off the plane by a hundredth of the distance has half the weight.
+  // If the distance of a point from the plane is a hundredth of its distance from the camera, its weight is
+  // halved.
   float inverse_off = 100.0 * inversesqrt(dot(point, point) + 1.0e-12);
   vec3 sum = vec3(0.0);
   float weights = 0.0;
@@ -170,7 +177,7 @@ vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
     sum += weight * far.open;
     weights += weight;
   }
-  // Texels that lie off the plane weigh less together.
+  // If all four texels are off the plane, the sum of their weights is below this.
   return weights > 5.0e-4 ? vec4(sum / weights, 1.0) : vec4(0.0);
 }
 
@@ -202,7 +209,7 @@ NookSurface nook_world_surface(ivec2 pixel) {
   return NookSurface(true, position, nook_world_normal(pixel, position));
 }
 
-// Returns the number that the view shows of what the point has evaluated.
+// Returns the count of this point that nook_world_view shows, divided by 255.
 float nook_world_count() {
   bool tests = nook_world_counts == NOOK_VIEW_TESTS || nook_world_counts == NOOK_VIEW_FAR_TESTS;
   int number = nook_world_counts == NOOK_VIEW_EXACT_CASTERS ? nook_world_exact
@@ -211,7 +218,7 @@ float nook_world_count() {
   return float(number) / 255.0;
 }
 
-// open: what the bodies of this stage leave open.
+// `open` is the openness that the bodies of this stage leave.
 vec4 nook_world_light(ivec2 pixel, NookSurface surface, float open) {
   vec4 light = vec4(vec3(open), 1.0);
   float count = surface.there ? nook_world_count() : 0.0;

@@ -1,12 +1,13 @@
-// Computes the open share of light by colour channel, and of one cone of light, at a point. Formulas and
-// names are as in sdk/src/world/light_terms.h and cone.h.
+// Computes the open share of the light in each colour channel, and the open share of one cone of light, at a
+// point. Formulas and names are as in sdk/src/world/light_terms.h and cone.h.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/constants.h"
 
-// The light's terms in view space (sdk/src/world/light_terms.h), then the darkest hemisphere.
+// The light's terms in view space (sdk/src/world/light_terms.h), then LightTerms::darkest.
 uniform vec4 nook_world_light_terms[NOOK_LIGHT_VEC4S];
 
-// Sums of the terms of a point's casters, each weighted by its share, in the order of the light's terms.
+// The sums of the terms of a point's casters, in the order of the light's terms. Each caster is weighted by
+// its share.
 struct NookTaken {
   float scalar;
   vec4 terms[6];
@@ -14,7 +15,7 @@ struct NookTaken {
 #define NOOK_NOTHING_TAKEN NookTaken(0.0, vec4[6](vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0), vec4(0.0)))
 NookTaken nook_world_taken = NOOK_NOTHING_TAKEN;
 
-// band: the density's bands 1 to 4, times the weight.
+// `band` holds the bands 1 to 4 of the density, multiplied by `weight`.
 void nook_world_add(inout NookTaken taken, vec3 d, float weight, vec4 band) {
   vec3 squared = d * d, mixed = d * d.yzx;  // mixed: xy, yz, zx
   float apart = squared.x - squared.y, along_x = squared.x - 3.0 * squared.y, along_y = 3.0 * squared.x - squared.y;
@@ -50,7 +51,7 @@ vec3 nook_world_light_under(NookTaken taken) {
   return sum;
 }
 
-// ao: what the gathered casters leave open.
+// `ao` is the AO of the gathered casters.
 vec3 nook_world_open_light(vec3 normal, float ao) {
   NookTaken hemisphere = NOOK_NOTHING_TAKEN;
   nook_world_add(hemisphere, normal, 1.0, vec4(2.0 / 3.0, 0.25, 0.0, -1.0 / 24.0));
@@ -59,12 +60,12 @@ vec3 nook_world_open_light(vec3 normal, float ao) {
   return clamp(1.0 - (1.0 - ao) / max(nook_world_taken.scalar, 1e-12) * ratio, 0.0, 1.0);
 }
 
-// The cone's parts with the slope of each; then its axis with its reach in metres; then cosine and sine of
-// the half angle around all parts.
+// First the axes of the cone's parts, each with its slope. Then the axis of the cone, and its reach in
+// metres. Then the cosine and sine of a half angle: a cone with this half angle contains all parts.
 uniform vec4 nook_world_cone[NOOK_CONE_VEC4S];
 float nook_world_parts[NOOK_CONE_PARTS];
 
-// Returns true if a sphere, relative to the point, may stand in the cone.
+// Returns true if a sphere may be inside the cone. `centre` is relative to the point.
 bool nook_world_in_cone(vec3 centre, float radius) {
   vec4 axis = nook_world_cone[NOOK_CONE_PARTS], round = nook_world_cone[NOOK_CONE_PARTS + 1];
   float depth = dot(centre, axis.xyz), aside = sqrt(max(dot(centre, centre) - depth * depth, 0.0));
@@ -81,8 +82,8 @@ float nook_share_between(float from, float to) {
   return x * (x * x * NOOK_SEGMENT_3 + NOOK_SEGMENT_1) - y * (y * y * NOOK_SEGMENT_3 + NOOK_SEGMENT_1);
 }
 
-// a: the capsule's first end relative to the point, with its radius. e: the other end's minus the first's. part:
-// a unit axis and the slope.
+// `a` is the capsule's first end relative to the point, and its radius. `e` is the second end and radius,
+// minus the first. `part` is the unit axis of a part, and its slope.
 float nook_part_coverage(vec4 a, vec4 e, vec4 part) {
   float depth_a = dot(a.xyz, part.xyz), range = dot(e.xyz, part.xyz), depth_b = depth_a + range;
   float deepest = max(depth_a, depth_b), smallest = 0.02 * deepest;
@@ -104,8 +105,9 @@ float nook_part_coverage(vec4 a, vec4 e, vec4 part) {
   return deepest > 1e-6 ? share : 0.0;
 }
 
-// The table's bodies of light: the centre and radius of the sphere around the body; its first caster and
-// their number.
+// Multiplies the openness of the cone's parts by the shadow of one body. The body has two texels in the
+// table: the centre and radius of the sphere around the body; the texel of its first caster and the number of
+// casters.
 void nook_world_body_shade(NOOK_TEXELS table, int texel, vec3 point) {
   vec4 bound = nook_texel(table, texel);
   if (!nook_world_in_cone(bound.xyz - point, bound.w)) return;

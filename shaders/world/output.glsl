@@ -1,5 +1,5 @@
-// Turns the openness of a pixel into the result: strength, the composition with AO of another kind, the
-// layer.
+// Converts the openness of a pixel to the result: applies the strength, composes it with another AO, and
+// applies the layer.
 #include "shaders/nnao/output.glsl"
 
 uniform sampler2D nook_other_ao;
@@ -19,7 +19,8 @@ float nook_world_finished(float open, ivec2 pixel) {
   return ao;
 }
 
-// open: by channel, and for the cone of light, which only replacing layers change.
+// rgb of `open` is the openness of each channel. Its alpha is the openness of the cone of light, which only
+// replacing layers change.
 vec4 nook_world_result(vec4 open, ivec2 pixel) {
 #ifdef NOOK_COLOURED
   vec4 result = vec4(nook_world_finished(open.r, pixel), nook_world_finished(open.g, pixel),

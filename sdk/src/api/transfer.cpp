@@ -1,4 +1,4 @@
-// The C functions for baked shapes, materials under lobes and transfer vectors.
+// The C functions for baked shapes, material lobes and transfer vectors.
 #include <array>
 #include <cmath>
 #include <span>
