@@ -5,7 +5,7 @@
 namespace nook::gl {
 
 struct EmbeddedShader {
-  const char* path;  // below shaders/, such as "character/shadow.comp"
+  const char* path;  // relative to shaders/, such as "character/shadow.comp"
   const char* text;  // with expanded includes, without #version
 };
 
