@@ -11,7 +11,8 @@ namespace {
 const GLubyte* GLAD_API_PTR version_for_glad(GLenum) {
   return reinterpret_cast<const GLubyte*>("4.6");
 }
-// glad counts extensions through glGetStringi, which OpenGL ES 2.0 lacks.
+// glad reads the list of extensions with glGetStringi, which OpenGL ES 2.0 does not have. With this version
+// string, glad uses another way.
 const GLubyte* GLAD_API_PTR old_version_for_glad(GLenum) {
   return reinterpret_cast<const GLubyte*>("2.1");
 }
@@ -34,8 +35,9 @@ void* Context::loader(void* user, const char* name) {
 
 void Context::load_functions() {
   gl_ = std::make_unique<GladGLContext>();
-  // glad loads only the functions of the version in GL_VERSION, and OpenGL ES numbers its versions otherwise.
-  // Its functions have the names and meanings of OpenGL's, so this loads every function that the driver has.
+  // glad only loads the functions of the version in GL_VERSION. But versions of OpenGL ES are numbered
+  // differently. The functions of OpenGL ES have the same names and meanings as on OpenGL, so this code loads
+  // every function that the driver has.
   const GLADuserptrloadfunc load = [](void* user, const char* name) {
     if (std::strcmp(name, "glGetString") == 0 && static_cast<Context*>(user)->is_es()) {
       const auto get_string = reinterpret_cast<PFNGLGETSTRINGPROC>(loader(user, name));

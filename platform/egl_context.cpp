@@ -1,5 +1,5 @@
-// EGL without a display. It tries Mesa's surfaceless platform first, then each EGL device until one gives a
-// context.
+// Creates contexts with EGL, without a display. Tries Mesa's surfaceless platform first, then each EGL device
+// until a context can be created.
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 
@@ -42,8 +42,8 @@ EGLenum api_of(bool es) {
   return es ? EGL_OPENGL_ES_API : EGL_OPENGL_API;
 }
 
-// The display is never terminated: other code of the process may share it, and Mesa's LLVM leaks when it is
-// terminated.
+// The EGL display is never terminated, because other code of the process may use it, too. Also, Mesa's LLVM
+// leaks memory if the display is terminated.
 class EglContext final : public Context {
  public:
   EglContext(const ContextRequest& request, EGLDisplay display, EGLContext context)
@@ -70,7 +70,7 @@ class EglContext final : public Context {
   bool es_;
 };
 
-// Some drivers reject the debug attribute whatever its value.
+// Passes the debug attribute only if it is needed, because some drivers reject it for any value.
 EGLContext create(EGLDisplay display, const ContextRequest& request, bool debug) {
   std::vector<EGLint> attributes = {EGL_CONTEXT_MAJOR_VERSION, request.major, EGL_CONTEXT_MINOR_VERSION,
                                     request.minor};

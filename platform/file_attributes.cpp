@@ -15,7 +15,7 @@ void copy_extended(int descriptor, const std::filesystem::path& old) {
   const ssize_t got = listxattr(old.c_str(), names.data(), names.size());
   for (ssize_t at = 0; at < got; at += ssize_t(std::string(names.data() + at).size()) + 1) {
     const char* const name = names.data() + at;
-    std::vector<char> value(std::size_t{1} << 16);  // Linux allows no more
+    std::vector<char> value(std::size_t{1} << 16);  // the maximum on Linux
     const ssize_t bytes = getxattr(old.c_str(), name, value.data(), value.size());
     // Some attributes belong to the system and cannot be set.
     if (bytes >= 0 && fsetxattr(descriptor, name, value.data(), std::size_t(bytes), 0) != 0) continue;
@@ -31,7 +31,8 @@ std::string take_attributes(int descriptor, const std::filesystem::path& old, co
     note = "it becomes yours, because you may not make files for its owner, user " +
            std::to_string(there.st_uid);
   mode_t mode = there.st_mode & 0777;
-  // The new file has another group, which must not inherit the old group's permissions.
+  // If the group could not be set, the new file has another group. This group must not get the permissions of
+  // the old group.
   if (!group) mode = (mode & 0707) | ((mode & 07) << 3 & mode);
   if (fchmod(descriptor, mode) != 0)
     note += note.empty() ? "its mode is not kept" : ", and its mode is not kept";

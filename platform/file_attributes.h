@@ -1,4 +1,4 @@
-// Copies the owner, mode and attributes of a file to the file that replaces it.
+// Copies the owner, mode and extended attributes of a file to the file that replaces it.
 #pragma once
 
 #include <sys/stat.h>
@@ -8,9 +8,9 @@
 
 namespace platform {
 
-// Gives a new, empty file the owner, mode and extended attributes (access lists included) of an old one, as
-// far as the system allows. Returns a note on what the user may not expect, or an empty text: other names of
-// the old file keep the old content, or the owner changes.
+// Gives a new, empty file the owner, mode and extended attributes (including access lists) of an old file, as
+// far as the system allows. Returns a note for the user if other names (hard links) keep the old content, or
+// if the owner changes. Otherwise returns an empty text.
 std::string take_attributes(int descriptor, const std::filesystem::path& old, const struct stat& there);
 
 }  // namespace platform

@@ -1,4 +1,5 @@
-// Reads and writes whole files. Failures are std::runtime_error with a text that names the file.
+// Reads and writes whole files. On failure, throws std::runtime_error with a text that contains the name of
+// the file.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +9,7 @@
 namespace platform {
 
 std::vector<unsigned char> read_file(const std::filesystem::path& path);
-// Creates the folder if necessary. A failed run leaves no half-written file.
+// Creates the folder if necessary. If writing fails, no half-written file remains.
 void write_file(const std::filesystem::path& path, const void* bytes, std::size_t size);
 
 }  // namespace platform

@@ -7,7 +7,7 @@
 namespace platform {
 namespace {
 
-// The module stays loaded: OpenImageIO keeps threads and texts until the process ends.
+// The module is never unloaded, because OpenImageIO uses threads and strings until the process ends.
 const ImageCodec& load() {
   void* module = dlopen(PLATFORM_IMAGE_MODULE, RTLD_NOW | RTLD_LOCAL);
   void* codec = module ? dlsym(module, "platform_openimageio_codec") : nullptr;

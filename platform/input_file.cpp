@@ -27,10 +27,10 @@ namespace fs = std::filesystem;
   fail(path, std::string("cannot be read (") + std::strerror(error) + ")");
 }
 
-// Closes itself.
+// A file descriptor that is closed by the destructor.
 class Descriptor {
  public:
-  // O_NONBLOCK: opening a pipe must not wait for its writer.
+  // Opens with O_NONBLOCK, so that opening a pipe does not wait for its writer.
   explicit Descriptor(const fs::path& path) {
     const int own = own_descriptor(followed(path));
     number_ =
@@ -61,7 +61,7 @@ std::size_t read_some(const Descriptor& file, const fs::path& path, std::span<st
   fail(path, "is too large (need at most " + std::to_string(max_bytes) + " bytes)");
 }
 
-// Passes what a stream delivers to take, piece by piece.
+// Calls `take` with each piece of data that arrives from a stream.
 template <class Take>
 void read_stream(const Descriptor& file, const fs::path& path, std::uint64_t max_bytes,
                  const FileEvents& events, Take&& take) {

@@ -1,4 +1,4 @@
-// Reads files that a user names as inputs, which may be pipes.
+// Reads input files of a program. They may also be pipes.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,18 @@
 namespace platform {
 
 // Reads a whole file, or a pipe, a terminal or a socket (/dev/stdin) up to its end. Throws std::runtime_error
-// with a text that names the file if it cannot be read, has more than max_bytes, or changes its size
-// meanwhile. Only a pipe takes memory before the size is checked. Throws Stopped if the user ends the wait.
+// with the name of the file if the file cannot be read, has more than max_bytes, or changes its size
+// meanwhile. The size is checked before memory is allocated, except for streams, whose size is not known
+// before. Throws Stopped if the user ends the wait.
 std::vector<std::byte> read_input(const std::filesystem::path& path, std::uint64_t max_bytes,
                                   const FileEvents& events);
 
-// Returns whether a path names a pipe, a socket or a terminal: you can read it only once, and it may wait for
-// ever.
+// Returns true if a path is a pipe, a socket or a terminal. You can read such a stream only once, and reading
+// may wait forever.
 bool is_stream(const std::filesystem::path& path);
 
-// Copies a stream to a temporary file of the same name, for readers that need a size or read twice. The
-// destructor deletes the file.
+// Copies a stream to a temporary file of the same name, for readers that need the size or read more than
+// once. The destructor deletes the file.
 class InputCopy {
  public:
   InputCopy(const std::filesystem::path& stream, std::uint64_t max_bytes, const FileEvents& events);

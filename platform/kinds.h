@@ -1,4 +1,4 @@
-// One function for each kind of context; only context.cpp calls them.
+// Declares one function for each kind of context. Only context.cpp calls them.
 #pragma once
 
 #include "platform/platform.h"

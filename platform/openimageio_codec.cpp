@@ -15,7 +15,7 @@ ImageHead head_of(const OIIO::ImageSpec& spec) {
 
 class OpenedImage : public ImageSource {
  public:
-  // `reader` is null for a file.
+  // `reader` is null if the image is read from a file.
   OpenedImage(std::unique_ptr<OIIO::Filesystem::IOMemReader> reader, std::unique_ptr<OIIO::ImageInput> input)
       : reader_(std::move(reader)), input_(std::move(input)), head_(head_of(input_->spec())) {}
 
@@ -35,14 +35,14 @@ class OpenedImage : public ImageSource {
   std::string why() override { return input_->geterror(); }
 
  private:
-  // OpenImageIO converts through a buffer of 64 MiB, however small an image is. So rows are read in the
-  // file's own type and converted afterwards.
+  // When OpenImageIO converts values, it allocates a buffer of 64 MiB, even for a small image. So rows are
+  // read in the type of the file, and converted afterwards.
   bool read(int top, int bottom, int channels, OIIO::TypeDesc type, void* values) {
     const OIIO::ImageSpec& spec = input_->spec();
     if (spec.tile_width != 0) return input_->read_image(0, 0, 0, channels, type, values);
     top += spec.y;
     bottom += spec.y;
-    // The image has no single type if its channels have several.
+    // If the channels have different types, the image does not have a single type.
     if (!spec.channelformats.empty())
       return input_->read_scanlines(0, 0, top, bottom, spec.z, 0, channels, type, values);
     const std::size_t count = std::size_t(channels) * std::size_t(spec.width) * std::size_t(bottom - top);
@@ -89,7 +89,7 @@ class OpenImageIoCodec : public ImageCodec {
   static std::unique_ptr<ImageSource> open_as(const std::string& format, const std::string& name,
                                               std::unique_ptr<OIIO::Filesystem::IOMemReader> reader,
                                               ImageAlpha alpha, std::string& why) {
-    // Given the name of a format, OpenImageIO makes a reader and opens nothing.
+    // With the name of a format, create() makes a reader, and does not open a file.
     auto input = OIIO::ImageInput::create(format);
     if (!input) {
       why = OIIO::geterror();
@@ -97,7 +97,8 @@ class OpenImageIoCodec : public ImageCodec {
     }
     OIIO::ImageSpec config, opened;
     if (alpha == ImageAlpha::unassociated) config["oiio:UnassociatedAlpha"] = 1;
-    // The configuration passes the reader: OpenImageIO 2.4 loses one that is passed beside a configuration.
+    // Passes the reader inside the configuration, because OpenImageIO 2.4 ignores a separate reader if there
+    // is a configuration.
     OIIO::Filesystem::IOProxy* proxy = reader.get();
     if (proxy) config.attribute("oiio:ioproxy", OIIO::TypeDesc::PTR, &proxy);
     if (input->open(name, opened, config))

@@ -1,4 +1,4 @@
-// OSMesa renders in software, into memory of this process.
+// Creates contexts with OSMesa, which renders in software into memory of this process.
 #include <GL/osmesa.h>
 
 #include <stdexcept>

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_links = 40;  // Linux follows as many
+constexpr int max_links = 40;  // the same limit as on Linux
 
 [[noreturn]] void fail(const fs::path& target, const std::string& why,
                        const char* cure = "choose a place that exists and can be written") {
@@ -35,15 +35,16 @@ bool same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// Root may write to every file. But nobody clears every w of a file by chance, so this protects it from root,
-// too.
+// Root may write to every file. But if no write permission is set at all, this is intended, so the file is
+// protected from root, too.
 void require_writable(const fs::path& named, const fs::path& target, const struct stat& there) {
   if ((there.st_mode & 0222) == 0)
     fail(named, "it is write-protected", "make it writable (chmod u+w), or choose another place");
   if (faccessat(AT_FDCWD, target.c_str(), W_OK, AT_EACCESS) != 0) fail_errno(named, errno);
 }
 
-// Devices, pipes and own streams are written behind their links; a link to anything else is replaced. Throws
+// Returns the path that is written. For devices, pipes and the program's own streams, symbolic links are
+// followed. A link to anything else is replaced itself, so the path is returned unchanged. Throws
 // std::runtime_error if links form a circle.
 fs::path written_place(const fs::path& named) {
   const fs::path target = followed(named);
@@ -69,7 +70,8 @@ int own_descriptor(const fs::path& path) {
 fs::path followed(const fs::path& path) {
   fs::path at = path;
   for (int links = 0; links <= max_links; ++links) {
-    // An entry of /proc/self/fd looks like a link, but for a pipe the path behind it does not exist.
+    // An entry of /proc/self/fd looks like a link. But for a pipe, the path to which it points does not
+    // exist.
     std::error_code error;
     if (own_descriptor(at) >= 0 || !fs::is_symlink(at, error)) return at;
     const fs::path next = fs::read_symlink(at, error);
@@ -82,7 +84,7 @@ fs::path followed(const fs::path& path) {
 OutputFile::OutputFile(fs::path target, FileEvents events)
     : events_(std::move(events)), named_(std::move(target)), target_(written_place(named_)) {
   if (const int own = own_descriptor(target_); own >= 0) {
-    // A stream that was closed when the program started cannot be written; see standard_streams.h.
+    // A stream that was closed when the program started cannot be written to; see standard_streams.h.
     const int flags = fcntl(own, F_GETFL);
     if (flags >= 0 && (flags & O_ACCMODE) == O_RDONLY) fail_errno(named_, EBADF);
     descriptor_ = fcntl(own, F_DUPFD_CLOEXEC, 0);
@@ -96,7 +98,7 @@ OutputFile::OutputFile(fs::path target, FileEvents events)
     open_part();
 }
 
-// Opening a pipe fails with ENXIO until a program reads it.
+// Repeats opening a pipe, because it fails with ENXIO until a program reads the pipe.
 void OutputFile::open_stream() {
   std::error_code error;
   if (fs::is_directory(target_, error)) fail(named_, "it is a folder", "add the name of a file");
@@ -116,7 +118,8 @@ void OutputFile::open_part() {
   struct stat there;
   const bool is_there = lstat(target_.c_str(), &there) == 0;
   if (!is_there && errno != ENOENT) fail_errno(named_, errno);
-  // A link is replaced by a new file, which has nothing of the file behind it.
+  // A link is replaced by a new file. The new file does not take over any attributes of the file to which the
+  // link points.
   const bool is_link = is_there && S_ISLNK(there.st_mode), exists = is_there && !is_link;
   if (exists) require_writable(named_, target_, there);
   const PartFile part = make_part(target_, exists ? 0600 : 0666);
@@ -144,7 +147,7 @@ OutputFile::~OutputFile() {
 }
 
 void OutputFile::write_stream(std::span<const std::byte> bytes) {
-  // A pipe that can be written has room for this many bytes (POSIX, PIPE_BUF).
+  // If a pipe is ready for writing, it has room for this many bytes (POSIX, PIPE_BUF).
   constexpr std::size_t piece = 4096;
   Wait wait(events_, named_.string() + ": waits for a program that reads it");
   while (!bytes.empty()) {
@@ -160,7 +163,7 @@ void OutputFile::write_stream(std::span<const std::byte> bytes) {
   }
 }
 
-// Writes the front last, over the mark: until then the file counts as a part.
+// Writes the first bytes last, over the mark. Until then, the file is recognised as a part.
 void OutputFile::write_part(std::span<const std::byte> bytes) {
   const auto write_at = [&](std::span<const std::byte> left, std::size_t at) {
     while (!left.empty()) {
@@ -175,8 +178,8 @@ void OutputFile::write_part(std::span<const std::byte> bytes) {
   write_at(bytes.subspan(front), front);
   write_at(bytes.first(front), 0);
   if (ftruncate(descriptor_, off_t(bytes.size())) != 0) fail_errno(named_, errno);
-  // The bytes must be on the disk before they replace an older file. A file system that cannot synchronise is
-  // not an error.
+  // The bytes must be on the disk before the part replaces an older file. It is not an error if the file
+  // system does not support fsync.
   if (fsync(descriptor_) != 0 && errno != EINVAL && errno != EROFS) fail_errno(named_, errno);
 }
 
@@ -185,14 +188,15 @@ void OutputFile::replace_target(std::span<const std::byte> bytes) {
   if (rename(part_.c_str(), target_.c_str()) == 0) return;
   std::error_code error;
   if (errno == ENOENT && fs::is_directory(folder_of(target_), error)) {
-    // Somebody emptied the folder or created it again meanwhile.
+    // The part does not exist any more: somebody emptied the folder, or deleted it and created it again.
+    // Tries again with a new part.
     close(std::exchange(descriptor_, -1));
     open_part();
     write_part(bytes);
     if (rename(part_.c_str(), target_.c_str()) == 0) return;
   } else if (errno == EBUSY) {
-    // A mounted file, as in containers, cannot be renamed over: the part is removed, and the target written
-    // in place.
+    // A mounted file, for example in a container, cannot be replaced by rename. So the part is removed, and
+    // the target is overwritten in place.
     unlink(part_.c_str());
     close(std::exchange(descriptor_, -1));
     descriptor_ = open(target_.c_str(), O_WRONLY | O_CLOEXEC);

@@ -1,17 +1,17 @@
-// The output stream of a program. A result that does not get out is an error.
+// Writes to the output stream of a program. It is an error if a result cannot be written completely.
 #pragma once
 
 #include <string_view>
 
 namespace platform {
 
-// False if the program was started without an output stream; see standard_streams.h.
+// Returns false if the program was started without an output stream; see standard_streams.h.
 bool has_output_stream();
 
-// Writes and flushes. Throws std::runtime_error if the text does not get out, as on a full disk.
+// Writes and flushes a text. Throws std::runtime_error if this fails, for example on a full disk.
 void print(std::string_view text);
 
-// Throws std::runtime_error if something printed by other means did not get out.
+// Throws std::runtime_error if earlier output that was printed by other functions could not be written.
 void require_printed();
 
 }  // namespace platform

@@ -20,8 +20,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int max_parts = 100;           // for one process and one target
-constexpr std::size_t name_bytes = 200;  // of the target's name; a whole name has at most 255 bytes
+constexpr int max_parts = 100;           // maximum number of parts for one process and one target
+constexpr std::size_t name_bytes = 200;  // bytes used of the target's name, because a whole file name has at
+                                         // most 255 bytes
 
 using Mark = std::array<char, part_mark_size>;
 
@@ -39,7 +40,7 @@ std::string start_of(const fs::path& target) {
   return target.filename().string().substr(0, name_bytes) + ".nook-part-";
 }
 
-// Returns the process number in a name such as START123 or START123-4; 0 for other names.
+// Returns the process ID in a name such as START123 or START123-4. Returns 0 for other names.
 long process_of(const std::string& name, const std::string& start) {
   if (!name.starts_with(start)) return 0;
   const char* at = name.data() + start.size();
@@ -52,7 +53,8 @@ long process_of(const std::string& name, const std::string& start) {
   return after == end || numbered ? process : 0;
 }
 
-// A file with this process's own number may come from an earlier process: in a container, numbers begin at 1.
+// A file with the ID of this process may belong to an earlier process, because in a container process IDs
+// begin at 1.
 bool is_dead(long process) {
   return process == getpid() || (kill(pid_t(process), 0) != 0 && errno == ESRCH);
 }
@@ -67,9 +69,10 @@ bool has_mark(int descriptor, long process) {
          found == mark_of(process);
 }
 
-// A live process also holds a lock on its part. The kernel releases it however the process ends.
+// A running process also holds a lock on its part. The kernel releases the lock when the process ends in any
+// way.
 void remove_if_abandoned(const fs::path& part, long process) {
-  // NFS locks only what is open for writing.
+  // Opens for writing, because NFS can lock only such files.
   const int descriptor = open(part.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);
   if (descriptor < 0) return;
   struct stat opened;
@@ -83,12 +86,12 @@ bool same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// Returns the descriptor of a new, locked part. Returns -1 if one of this name exists (EEXIST), or if another
-// process has just removed it.
+// Returns the descriptor of a new, locked part. Returns -1 if a part with this name already exists (EEXIST),
+// or if another process has just removed the new part.
 int try_part(const fs::path& part, unsigned mode) {
   const int descriptor = open(part.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (descriptor < 0) return -1;
-  const bool locked = lock(descriptor) || errno != EWOULDBLOCK;  // some file systems have no locks
+  const bool locked = lock(descriptor) || errno != EWOULDBLOCK;  // some file systems do not support locks
   struct stat opened, there;
   if (locked && fstat(descriptor, &opened) == 0 && lstat(part.c_str(), &there) == 0 &&
       same_file(opened, there))

@@ -1,4 +1,4 @@
-// The unfinished files that output_file.h writes beside a target.
+// Creates and removes parts, the unfinished files that output_file.h writes in the folder of a target.
 #pragma once
 
 #include <filesystem>
@@ -10,14 +10,16 @@ struct PartFile {
   int descriptor = -1;
 };
 
-// The first bytes of a part mark it as a part. The content replaces them last.
+// The first bytes of a part are a mark that identifies it as a part. They are overwritten last by the
+// content.
 inline constexpr std::size_t part_mark_size = 64;
 
-// Creates a part of a target, locked and marked. If it cannot, the descriptor is -1 and errno is set.
+// Creates a part of a target, locks it and writes the mark. On failure, the descriptor is -1 and errno is
+// set.
 PartFile make_part(const std::filesystem::path& target, unsigned mode);
 
-// Removes the parts of dead processes. It removes a file only if its name is TARGET.nook-part-PID, its first
-// bytes are that process's mark, the process is dead, and nobody holds its lock.
+// Removes the parts of dead processes. A file is removed only if its name is TARGET.nook-part-PID, its first
+// bytes are the mark of this process, the process is dead, and nobody holds the lock.
 void remove_abandoned_parts(const std::filesystem::path& target);
 
 // Returns the folder of a path in a form that can be opened.

@@ -1,5 +1,5 @@
-// The memory that the process has used. Libraries can include this header, because it has no objects of its
-// own.
+// Measures the peak memory of the process. This header can also be used by libraries that do not link
+// `platform`, because it needs no object file.
 #pragma once
 
 #include <sys/resource.h>

@@ -7,8 +7,8 @@
 namespace platform {
 namespace {
 
-// Returns the length in bytes of the first character and puts its number into code. Returns 0 if the bytes
-// are not UTF-8 (RFC 3629).
+// Decodes the first character of a text to its code point. Returns the length of the character in bytes, or 0
+// if the bytes are not valid UTF-8 (RFC 3629).
 std::size_t decode(std::string_view text, std::uint32_t& code) {
   const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
   code = byte(0);
@@ -20,7 +20,8 @@ std::size_t decode(std::string_view text, std::uint32_t& code) {
     if ((byte(i) & 0xc0u) != 0x80u) return 0;
     code = code << 6 | (byte(i) & 0x3fu);
   }
-  constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // the least code that needs so many bytes
+  constexpr std::uint32_t least[] = {0, 0, 0x80, 0x800, 0x10000};  // the smallest code point that needs this
+                                                                   // many bytes
   const bool surrogate = code >= 0xd800 && code <= 0xdfff;
   return code < least[size] || code > 0x10ffff || surrogate ? 0 : size;
 }

@@ -7,10 +7,11 @@
 namespace platform {
 
 // Replaces control characters (C0, DEL and C1), characters that change the writing direction, and invalid
-// UTF-8 by visible escapes such as \x1b. A name then cannot colour, move or retitle a terminal.
+// UTF-8 by visible escapes such as \x1b. So the name of a file cannot change the colours, the cursor or the
+// title of a terminal.
 std::string printable(std::string_view text);
 
-// The same for text of several lines; line feeds stay.
+// The same for text with several lines. Line feeds are kept.
 std::string printable_lines(std::string_view text);
 
 }  // namespace platform

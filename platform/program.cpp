@@ -16,7 +16,7 @@ void attach(const GladGLContext& gl, GLuint program, GLenum stage, std::initiali
   char log[2048] = "";
   if (!compiled) gl.GetShaderInfoLog(shader, sizeof log, nullptr, log);
   gl.AttachShader(program, shader);
-  gl.DeleteShader(shader);  // deleted with the program that it is attached to
+  gl.DeleteShader(shader);  // OpenGL deletes the shader together with its program
   if (!compiled) throw std::runtime_error(std::string("link_program: a shader does not compile: ") + log);
 }
 

@@ -7,12 +7,13 @@
 
 namespace platform {
 
-// Creates a linked program, which the caller deletes. The texts of a stage are concatenated; the first one
-// begins with the #version line. Throws std::runtime_error with the compiler's or linker's log.
+// Compiles and links a program, which the caller must delete. The texts of a stage are concatenated. The
+// first text must begin with the #version line. Throws std::runtime_error with the compiler's or linker's
+// log.
 GLuint link_program(const GladGLContext& gl, std::initializer_list<const char*> vertex,
                     std::initializer_list<const char*> fragment);
 
-// A linked program that deletes itself.
+// A linked program that is deleted by the destructor.
 class Program {
  public:
   // Takes the same texts as link_program. The context must outlive this object.

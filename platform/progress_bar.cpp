@@ -13,7 +13,7 @@ namespace platform {
 namespace {
 
 constexpr double seconds_between_draws = 0.1;
-constexpr double seconds_before_rate = 0.3;  // before that, the rate is mostly noise
+constexpr double seconds_before_rate = 0.3;  // in the first moments, the rate is too inaccurate
 
 int terminal_columns() {
   winsize size{};
@@ -75,7 +75,7 @@ void ProgressBar::show(const std::string& label, const char* unit, std::size_t d
     draw(unit, rate, left);
     return;
   }
-  // A log gets one line at the start and one for each tenth of the work.
+  // If the stream is not a terminal, prints one line at the start, and one for each tenth of the work.
   const std::size_t tenths = total > 0 ? 10 * done / total : 0;
   if (drawn_ != Clock::time_point{} && tenths <= tenths_) return;
   drawn_ = now;
@@ -98,7 +98,7 @@ void ProgressBar::draw(const char* unit, double rate, double seconds_left) {
       std::clamp(terminal_columns() - int(shown_label_.size() + std::string(tail).size()) - 4, 5, 40);
   const double share = total_ > 0 ? double(done_) / double(total_) : 0;
   const int filled = std::clamp(int(std::lround(share * width)), 0, width);
-  // \x1b[K erases to the end of the line, because the text before may have been longer.
+  // \x1b[K erases the rest of the line, because the previous text may have been longer.
   std::fprintf(stderr, "\r%s [%s%s]%s\x1b[K", shown_label_.c_str(),
                std::string(std::size_t(filled), '#').c_str(),
                std::string(std::size_t(width - filled), '.').c_str(), tail);

@@ -1,4 +1,4 @@
-// Shows the progress of long work on the error stream: a bar on a terminal, plain lines elsewhere.
+// Shows the progress of long work on the error stream. On a terminal it shows a bar, otherwise plain lines.
 #pragma once
 
 #include <chrono>
@@ -14,7 +14,8 @@ class ProgressBar {
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
 
-  // unit names what is counted, for example "poses". A new label begins a new line. Calls must not overlap.
+  // `unit` is the name of the counted things, for example "poses". A new label begins a new line. Do not call
+  // it from several threads at the same time.
   void show(const std::string& label, const char* unit, std::size_t done, std::size_t total);
 
  private:
@@ -25,7 +26,7 @@ class ProgressBar {
   void draw(const char* unit, double rate, double seconds_left);
 
   bool quiet_, terminal_;
-  std::string label_, shown_label_;  // as passed, and as printed
+  std::string label_, shown_label_;  // the label as passed, and as printed
   std::size_t first_ = 0, done_ = 0, total_ = 0, tenths_ = 0;
   Clock::time_point began_, drawn_;
   bool line_open_ = false;

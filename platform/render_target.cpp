@@ -27,7 +27,7 @@ RenderTarget::RenderTarget(const Context& context, int width_px, int height_px)
   const GladGLContext& gl = context.gl();
   GLint max_samples = 0;
   gl.GetIntegerv(GL_MAX_SAMPLES, &max_samples);
-  // Softpipe has no multisampling and gets a plain framebuffer.
+  // Mesa's softpipe does not support multisampling, so it gets a framebuffer without samples.
   const GLint samples = max_samples >= 4 ? 4 : 0;
   gl.GenFramebuffers(2, framebuffers_);
   gl.GenRenderbuffers(3, renderbuffers_);

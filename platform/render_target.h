@@ -1,5 +1,5 @@
-// The framebuffers that the samples draw into: an sRGB framebuffer, with four samples per pixel if OpenGL
-// supports them, and another framebuffer, which gets the resolved picture.
+// The framebuffers of the samples. Samples draw into an sRGB framebuffer, which has four samples per pixel if
+// OpenGL supports them. The image is then resolved to a second framebuffer.
 #pragma once
 
 #include "platform/platform.h"
@@ -15,18 +15,18 @@ class RenderTarget {
 
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
-  void bind() const;     // binds it for drawing, sets the viewport and sRGB encoding
-  void resolve() const;  // leaves the resolved picture bound for reading
-  // Resolves, waits for the GPU, and returns the rows from top to bottom.
+  void bind() const;     // binds the target for drawing, sets the viewport, and enables sRGB encoding
+  void resolve() const;  // resolves the image, and leaves the resolved framebuffer bound for reading
+  // Resolves the image and reads it back, with rows from top to bottom. Waits for the GPU.
   Image read() const;
-  // Resolves to a framebuffer that shows bytes without conversion, such as a window's. The picture is
-  // filtered if the sizes differ.
+  // Resolves the image and copies it to a framebuffer that shows bytes without conversion, such as a
+  // window's. If the sizes differ, the image is filtered.
   void show(unsigned framebuffer, int width_px, int height_px) const;
 
  private:
   const Context& context_;
   int width_px_, height_px_;
-  unsigned framebuffers_[2] = {};   // multisampled, resolved
+  unsigned framebuffers_[2] = {};   // the multisampled one, the resolved one
   unsigned renderbuffers_[3] = {};  // colour, depth, resolved colour
 };
 

@@ -1,4 +1,5 @@
-// Measures wall-clock time. Libraries can include this header, because it has no objects of its own.
+// Measures wall-clock time. This header can also be used by libraries that do not link `platform`, because it
+// needs no object file.
 #pragma once
 
 #include <chrono>
@@ -7,10 +8,11 @@ namespace platform {
 
 class Stopwatch {
  public:
-  // Seconds since construction or the last lap.
+  // Returns the seconds since construction or since the last lap.
   double seconds() const { return std::chrono::duration<double>(Clock::now() - last_).count(); }
 
-  // Returns seconds() or the same in milliseconds, and begins a new lap.
+  // lap_seconds and lap_ms return the time since the last lap, in seconds or milliseconds, and begin a new
+  // lap.
   double lap_seconds() {
     const Clock::time_point now = Clock::now();
     const double seconds = std::chrono::duration<double>(now - last_).count();

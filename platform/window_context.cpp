@@ -1,4 +1,4 @@
-// A window on the desktop through GLFW.
+// Creates a window on the desktop with GLFW.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
