@@ -1,7 +1,7 @@
 # cmake -DROOT=dir -DSHADERS=dir -DOUTPUT=file.cpp [-DHEADER=path -DNAMESPACE=name] -P embed_shaders.cmake
-# Turns every *.vert, *.frag and *.comp file below SHADERS, and every host.glsl, which hosts put into shaders of their own, into
-# one C++ source. A line `#include "path"` (relative to ROOT, the
-# repository's) is replaced by that file's text, once per shader; the host needs no files at run time.
+# Writes the text of all *.vert, *.frag and *.comp files below SHADERS into one C++ source file, so that hosts need no files at
+# run time. Also writes each host.glsl, which hosts insert into their own shaders. A line `#include "path"` is replaced by the
+# text of this file, once per shader. The path is relative to ROOT, the root of the repository.
 cmake_minimum_required(VERSION 3.25)
 
 if(NOT HEADER)
@@ -48,7 +48,7 @@ foreach(path IN LISTS paths)
   string(REPLACE "@open@" "[" text "${text}")
   string(REPLACE "@close@" "]" text "${text}")
   string(REPLACE "@backslash@" "\\" text "${text}")
-  # MSVC takes up to 16,380 characters in a literal; literals side by side are one string.
+  # MSVC allows at most 16,380 characters in a literal. Consecutive literals are one string.
   set(literals "")
   string(LENGTH "${text}" length)
   foreach(at RANGE 0 ${length} 12000)

@@ -2,7 +2,7 @@
 find_program(GLAD_EXECUTABLE glad REQUIRED)
 
 function(nook_generate_glad directory)
-  # --reproducible takes the specification from the package: without it glad goes to the network.
+  # With --reproducible, glad uses the specification in its package. Otherwise it would download the specification.
   add_custom_command(
     OUTPUT ${directory}/src/gl.c ${directory}/include/glad/gl.h ${directory}/include/KHR/khrplatform.h
     COMMAND ${GLAD_EXECUTABLE} --reproducible --quiet --api gl:core=4.6

@@ -1,5 +1,5 @@
-# AVX-512F, on x86-64. Products and sums become one instruction. gcc's own header passes undefined registers to the
-# AVX-512 instructions, and then warns of them (gcc bug 105593).
+# AVX-512F, on x86-64. The compiler may combine products and sums to FMA instructions. gcc's own header passes undefined
+# registers to AVX-512 instructions, and gcc then warns about them (gcc bug 105593).
 nook_target_is(isa_built "defined(__x86_64__) || defined(_M_X64)")
 set(isa_flags -ffp-contract=fast -mavx512f -mfma -mprefer-vector-width=512
     "$<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized;-Wno-uninitialized>")

@@ -1,2 +1,2 @@
-# Every target has it.
+# The scalar kernels can be built for every target.
 set(isa_built ON)
