@@ -18,7 +18,7 @@ struct ContextRequest {
   std::string kind = "egl";  // "egl" (no display needed), "osmesa" or "window"
   int width = 1280;          // pixels
   int height = 720;
-  int major = 4;  // version of the core profile; Mesa's software renderer has at most 4.5
+  int major = 4;  // version of the core profile; Mesa's software renderer supports at most 4.5
   int minor = 5;
   bool es = false;     // true: OpenGL ES of this version; only the kind "egl" supports it
   bool debug = false;  // true: a debug context if the driver supports one

@@ -15,8 +15,8 @@ layout(location = NOOK_ATTRIBUTE_ALPHA_1) in vec4 nook_alpha_1;
 layout(location = NOOK_ATTRIBUTE_BLEND_1) in vec4 nook_blend_1;
 #endif
 
-// One texel holds shadow and added occlusion. With NOOK_LIGHT there are two: coloured shadow and shadow, then
-// added occlusion.
+// One texel holds shadow and added occlusion. With NOOK_LIGHT, a key point has two texels: coloured shadow
+// and shadow; added occlusion.
 uniform NOOK_TEXELS nook_shadows;
 uniform int nook_first_key_point;    // index within the page of the first key point of the draw's first
                                      // instance

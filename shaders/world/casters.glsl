@@ -53,7 +53,7 @@ float nook_world_caster_open(int texel, vec3 point, vec3 normal) {
   return nook_world_left(share, phi, normal);
 }
 
-// The ends of the capsule of a part or a body.
+// Returns the openness that the capsule of a part or a body leaves. Pass the ends of the capsule.
 float nook_world_merged_open(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   vec3 phi;
   float share = nook_world_far_coverage(end_a, end_b, point, normal, phi);

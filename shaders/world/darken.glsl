@@ -44,9 +44,9 @@ float nook_world_depth_beside(ivec2 pixel) {
 #endif
 }
 
-// Returns the tangent along an axis from the steps to both neighbours, each weighted by the inverse square of
-// its change of depth. Across a silhouette, depth changes more than on the pixel's own surface. `axis` is one
-// pixel long.
+// Returns the surface tangent along an axis. It is the mean of the steps to both neighbours, weighted by the
+// inverse square of their changes of depth. Across a silhouette, depth changes more than on the pixel's own
+// surface. `axis` is one pixel long.
 vec3 nook_world_tangent(ivec2 pixel, ivec2 axis, vec3 position) {
   ivec2 step = NOOK_NORMAL_STEP * axis;
   vec2 depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));

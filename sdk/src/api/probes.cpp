@@ -55,7 +55,7 @@ void read_fits(const nook_probe_desc& desc, Probes& probes) {
         std::span<Vec3>(probes.gloss).subspan(i * probes.basis.count, probes.basis.count));
 }
 
-// Returns the functions of lobes. The last one is the ambient term if its sharpness is 0.
+// Returns a basis that consists of the lobes. The last one is the ambient term if its sharpness is 0.
 Basis basis_of(const nook_lobe* lobes, std::uint32_t count) {
   std::array<Vec3, max_functions> axes;
   std::array<float, max_functions> sharpnesses;

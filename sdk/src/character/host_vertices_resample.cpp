@@ -14,8 +14,8 @@ namespace {
 constexpr float min_facing = 0.2f;
 constexpr float facing_power = 8;
 constexpr std::size_t interpolated_vertices = 3;
-// Points closer than this are treated as one place. As a share of the rest pose's diameter; it allows for
-// 16-bit positions.
+// Points that are closer than this share of the rest pose's diameter are treated as one place. This allows
+// for 16-bit positions.
 constexpr float same_place = 1e-4f;
 
 // A position with a normal. If there are no normals, all points get the same one.

@@ -13,8 +13,8 @@
 
 namespace nook {
 
-// A multiple of all block sizes. If the vertices of a window are consecutive in the file, their AO fits into
-// 4 KiB.
+// Number of vertices in a window. It is a multiple of all block sizes. If the vertices of a window are
+// consecutive in the file, their AO fits into 4 KiB.
 inline constexpr std::uint32_t linear_window_vertices = 1024;
 
 // Returns all vertices in the order of their slots. The vertices of a block come from one window of the
@@ -35,7 +35,7 @@ class LinearLayer {
   float max_blend_gain() const { return max_blend_gain_; }
   // Returns the length of the ao array that ShadowKernels::linear_layer fills.
   std::uint32_t padded_slots() const { return view_.block_count * linear_block_vertices; }
-  // The slot of each vertex in the file's order.
+  // Returns the slot of each vertex, in the order of the file.
   const AlignedArray<std::uint32_t>& file_to_slot() const { return file_to_slot_; }
 
  private:

@@ -77,7 +77,7 @@ struct CharacterLevel {
   Vector<ProxySphere> spheres;
   Vector<std::uint16_t> evaluated;  // key points, ascending
   // For each key point k, shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]). The
-  // occlusion by other casters is copied unchanged.
+  // occlusion by other casters is copied from the evaluated key point without change.
   Vector<std::uint16_t> source;
   Vector<float> scale;
   Vector<float> offset;
@@ -132,14 +132,14 @@ struct CharacterModel {
   Vector<PrimitiveRange> primitives;
 
   static constexpr std::size_t max_levels = 4;
-  Vector<CharacterLevel> levels;  // from fine to coarse, without full detail; may be empty
+  Vector<CharacterLevel> levels;  // from fine to coarse; full detail is not included; may be empty
 
   static constexpr std::size_t max_world_casters = 64;
   Vector<WorldCaster> world_casters;  // empty if the model was baked without world casters
 
   float bounding_radius = 0;  // metres; the sphere around bounding_centre contains the rest pose
   Vec3 bounding_centre;
-  std::uint16_t root_bone = 0;  // the bone that the ground and the bounding sphere follow
+  std::uint16_t root_bone = 0;  // the ground and the bounding sphere move with this bone
 
   BindData bind;     // may be empty
   RestSurface rest;  // may be empty

@@ -1,4 +1,4 @@
-// Conversion of the numbers of a character model to small integers, and back.
+// Converts the values of a character model to small integers, and back.
 #pragma once
 
 #include <algorithm>
@@ -13,13 +13,14 @@ namespace nook {
 
 // The number of bits of each field.
 struct CharacterBits {
-  static constexpr int sphere_centre = 16;  // one coordinate in the box of all centres: 30 micrometres in 2 m
+  static constexpr int sphere_centre = 16;  // per coordinate, relative to the box of all centres: steps of 30
+                                            // micrometres in a box of 2 m
   static constexpr int sphere_radius = 16;
   static constexpr int caster_weight = 8;
   static constexpr int key_position = 16;
   // Each of two octahedral coordinates; the error is within 0.1 degree.
   static constexpr int key_normal = 11;
-  static constexpr int surface_offset = 12;  // surface position minus position: 0.1 mm in 0.4 m
+  static constexpr int surface_offset = 12;  // surface position minus position: steps of 0.1 mm in 0.4 m
   static constexpr int surface_normal = 10;
   static constexpr int bone_count = 2;
   // In units of 1/256, so that the weights of a key point sum to exactly 1.

@@ -249,7 +249,7 @@ PosedPoints points_of(const Check& check) {
           check.vertex_place};
 }
 
-// Tries mistakes that occur together, the likeliest pairs first.
+// Tries pairs of mistakes that occur together, the most likely pair first.
 void explain_by_two_mistakes(Check& check, std::span<const Reading> single, PoseFinding& finding,
                              Memory* memory) {
   for (const Reading& reading : readings_of_two_mistakes(check.model, check.given, memory))

@@ -1,5 +1,6 @@
 // A scene as plain data, and the steps that evaluate it. The CPU path runs all of them. The GPU path runs
-// only the first, resolve_casters, on the CPU; shaders do the rest from the same fields. World space, metres.
+// only the first step, resolve_casters, on the CPU. Shaders then compute the other steps from the same
+// fields. World space, metres.
 #pragma once
 
 #include <nook/experimental/nook_debug.h>
@@ -193,7 +194,7 @@ struct Instance {
   explicit Instance(Memory* memory) : input(memory), plan(memory), casters(memory) {}
 
   nook_instance_id id = 0;        // 0: this slot is free, and everything below except `generation` is empty
-  std::uint32_t generation = 0;   // how often the slot was used before; part of the id
+  std::uint32_t generation = 0;   // number of earlier uses of the slot; part of the id
   std::uint64_t added_frame = 0;  // Scene::frame when the instance was added
   Ref<const LoadedModel> model;
 
@@ -256,7 +257,8 @@ struct Scene {
   nook_scene_info stats{};  // without memory_bytes
 };
 
-// ---- Edits: on a bad id or value they throw Failure, without memory std::bad_alloc, and change nothing ----
+// ---- Edits: throw Failure for a bad id or value, and std::bad_alloc if memory runs out; then nothing
+// changes ----
 nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model);
 void remove_instance(Scene& scene, nook_instance_id id);
 Instance& instance_of(Scene& scene, nook_instance_id id);
@@ -319,7 +321,7 @@ void transform_key_points(const Scene& scene, Instance& instance) noexcept;
 // Computes shadow and added occlusion at the key points of an instance. If the instance has a light, also
 // computes their colours (instance_light.h). The instance must be due.
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;
-// Runs all of the above for all instances, and computes the statistics.
+// Runs all steps above for all instances, and computes the statistics.
 void update(Scene& scene) noexcept;
 
 // Blends the key points to vertices, and writes the AO of the last update in file order. `out` holds one

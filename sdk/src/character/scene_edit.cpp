@@ -38,7 +38,7 @@ auto& find(Objects& objects, std::uint32_t id, const char* what) {
   return objects[slot];
 }
 
-// Returns the nearest matrix with one scale.
+// Returns the nearest matrix with a uniform scale.
 Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bone) {
   return to_float(projected(to_double(matrix), joint_origin(model, bone)));
 }

@@ -20,7 +20,8 @@ bool has_casters(const Instance& instance) {
   return !instance.plan.casters.empty() || free_sphere_count(instance) > 0;
 }
 
-// Overwrites optical_depth with the occlusion that the casters add. Returns the number of spheres.
+// Computes the occlusion that the casters add. The computation overwrites optical_depth. Returns the number
+// of spheres.
 std::size_t evaluate_composed(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const KeyPointSoa surface = surface_points(points);
   std::fill_n(points.optical_depth, points.padded_count, 0.0f);
@@ -280,7 +281,7 @@ void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride
       [&](unsigned char* place, std::uint32_t slot) { put(place, numbers[slot]); });
 }
 
-// A constant stride saves a multiplication for each vertex.
+// A stride that is a compile-time constant saves a multiplication for each vertex.
 template <class Number, class Convert>
 void write_ao(const Scene& scene, const Instance& instance, void* out, std::size_t stride_bytes,
               Convert&& convert) noexcept {

@@ -15,7 +15,7 @@ namespace nook {
 std::uint64_t instance_bytes(const LoadedModel& model);
 std::uint64_t light_bytes(const LoadedModel& model);
 
-// Returns the number of instances whose pose has a projected bone.
+// Returns the number of instances that have a projected bone in their pose.
 std::uint32_t uneven_instances(const Scene& scene) noexcept;
 
 // The functions below read the shapes that a scene evaluates, for debug drawing. They pose the shapes one by

@@ -56,7 +56,8 @@ struct KeyPointSoa {
   std::uint32_t padded_count = 0;  // a multiple of key_point_group
 };
 
-// The outputs of pose_spheres and pose_key_points; you can pass the same arrays as SphereSoa and KeyPointSoa.
+// The outputs of pose_spheres and pose_key_points. You can then pass the same arrays to the other kernels as
+// SphereSoa and KeyPointSoa.
 struct SphereTarget {
   float* x = nullptr;
   float* y = nullptr;
@@ -119,13 +120,13 @@ struct SphereTreeView {
   const PosedSphereTree* pose = nullptr;
 };
 
-// 16 vertices of the linear layer as a small dense matrix with one column for each key point that any of them
-// uses. A column takes only a few instructions for all 16 vertices. Looking up the key points of each vertex
-// would take one load per entry. Columns are stored in pairs, because processors can sum two products of
-// 16-bit numbers in one instruction. The two key points of pair p of the block are in key_points[first_pair +
-// p]. The alphas of the pair start at alpha[32 (first_pair + p)], and the blend weights at blend[32
-// (first_pair + p)]; the two values of a vertex are next to each other. If the number of columns is odd, a
-// last column without weights is added.
+// 16 vertices of the linear layer, as a small dense matrix. The matrix has a column for each key point that
+// at least one of the vertices uses. A column takes only a few instructions for all 16 vertices. Looking up
+// the key points of each vertex would take one load per entry. Columns are stored in pairs, because
+// processors can sum two products of 16-bit numbers in one instruction. The two key points of pair p of the
+// block are in key_points[first_pair + p]. The alphas of the pair start at alpha[32 (first_pair + p)], and
+// the blend weights at blend[32 (first_pair + p)]; the two values of a vertex are next to each other. If the
+// number of columns is odd, a last column without weights is added.
 struct LinearBlock {
   std::uint32_t first_pair = 0;
   std::uint32_t pairs = 0;
@@ -206,8 +207,9 @@ struct ShadowKernels {
                           const KeyPointTarget& out, const KeyPointTarget* surface);
 
   // Directional occlusion (directional_occlusion.h). rgb and inverse have one array of padded_count entries
-  // for each channel. rho is the light behind a sphere relative to its share of the hemisphere. rgb[k] += sum
-  // over spheres of y^gamma rho, by bands (directional_occlusion.h): the coloured form of self_norm_sum.
+  // for each channel. rho is the mean radiance behind a sphere, relative to the mean radiance of the
+  // hemisphere. rgb[k] += sum over spheres of y^gamma rho, by bands (directional_occlusion.h): the coloured
+  // form of self_norm_sum.
   void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                                const LightBands& light, float* const* rgb);
   // inverse[k] = inverse_hemisphere at key point k. The next two functions need it.
@@ -239,8 +241,8 @@ const ShadowKernels& best_shadow_kernels();
 
 }  // namespace nook
 
-// The table of each instruction set's translation unit. Use a table only on a processor that has the
-// instruction set.
+// Declares the functions that return the tables of the instruction sets; each set has its own translation
+// unit. Use a table only on a processor that has the instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs) \
   namespace nook::isa_##name {                   \
     const ShadowKernels& kernels();              \

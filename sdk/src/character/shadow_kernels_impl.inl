@@ -6,8 +6,8 @@
 //   Whole, as many whole numbers, and CodePair, two 16-bit numbers for all lanes: code_pair(low, high) of the
 //   halves of a word, add_products(p, codes, sum), which adds the products of each lane's two numbers from p
 //   on, load_pairs(p, first, second) of the same numbers, and store_codes(low, high, a) of PointCodes.
-// Everything here has internal linkage, or a name that contains the instruction set's type. Otherwise the
-// linker could merge code for a newer processor into a function that an older one runs.
+// Everything here has internal linkage, or a mangled name that contains a type of the instruction set.
+// Otherwise the linker could merge code for a newer processor into a function that an older one runs.
 
 namespace {
 
@@ -161,7 +161,7 @@ struct Extents {
 struct GroupBoxes {
   Extents x, y, z;
 
-  // Lanes after the last group repeat it.
+  // Lanes after the last group repeat the last group.
   GroupBoxes(const KeyPointSoa& points, std::uint32_t first) {
     for (std::uint32_t g = 0; g < batch_groups; ++g) {
       const std::uint32_t last = points.padded_count - key_point_group;

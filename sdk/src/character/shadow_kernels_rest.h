@@ -1,4 +1,4 @@
-// The moving parts of a character model, spheres and key points, in the layout of the pose kernels.
+// The spheres and key points of a character model, in the layout that the pose kernels need.
 #pragma once
 
 #include <cstdint>

@@ -22,7 +22,7 @@ bool is_finite(const Affine& a);
 // determinant(a) must not be 0.
 Affine inverse(const Affine& a);
 
-// Reads the columns of a 4x4 matrix as glTF stores them; the last row is assumed to be 0 0 0 1.
+// Converts a column-major 4x4 matrix, as in glTF. The last row must be 0 0 0 1 and is not read.
 Affine from_columns(const double* columns_4x4);
 
 // A translation, a unit quaternion (x, y, z, w) and a scale. The scale is applied first, then the rotation,

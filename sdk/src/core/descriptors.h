@@ -28,7 +28,8 @@ inline constexpr const char* descriptor_init = nullptr;
 template <class Desc>
 Desc default_desc();
 
-// The size of a struct in the first release, 1.0. Specialise it for a struct that gains a field.
+// The size of a struct in release 1.0. When you append a field to a struct, specialise this with the old
+// size.
 template <class Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);
 

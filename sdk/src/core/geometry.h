@@ -1,4 +1,4 @@
-// Capsules, and the maximum distance of geometry from the origin.
+// Defines capsules, and limits for positions and poses.
 #pragma once
 
 #include <cmath>

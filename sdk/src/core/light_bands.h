@@ -4,7 +4,7 @@
 //   scalar + A1 dot(vector, d) + A2 dot(d, tensor d),
 // where A1 and A2 are the density's own bands: the means of its cosine to d and of (3 cosine^2 - 1) / 2.
 //
-// All functions of F are templates over a number type, like the kernels.
+// Functions with a template parameter F work for every number type, like the kernels.
 #pragma once
 
 #include <algorithm>

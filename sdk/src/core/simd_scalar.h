@@ -15,7 +15,7 @@ constexpr T fma(T a, T b, T c) {
 }
 template <std::floating_point T>
 constexpr T min(T a, T b) {
-  return a < b ? a : b;  // b if either is NaN, as in the x86 instruction
+  return a < b ? a : b;  // returns b if either is NaN, like the x86 instruction
 }
 template <std::floating_point T>
 constexpr T max(T a, T b) {

@@ -3,9 +3,9 @@
 // The mean of the light under a density around d is the sum over the bands l of A_l times the light's band at
 // d. A_l is the mean of the Legendre polynomial of l under the density.
 //
-// The polynomials are spherical harmonics without their factors, which the light's terms contain. Bands 3 and
-// 4 are only used if there are enough lobes. With fewer lobes, they would describe the shape of the lobes
-// instead of the light. They are weighted by 0.8 and 0.6 to reduce ringing.
+// The polynomials are spherical harmonics without their normalisation factors. The terms of the light contain
+// these factors. Bands 3 and 4 are only used if there are enough lobes. With fewer lobes, they would describe
+// the shape of the lobes instead of the light. They are weighted by 0.8 and 0.6 to reduce ringing.
 #pragma once
 
 #include <span>

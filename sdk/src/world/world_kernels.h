@@ -48,8 +48,8 @@ const WorldKernels* world_kernels(Isa isa);
 
 }  // namespace nook::world
 
-// The table of each instruction set's translation unit. Use a table only on a processor that has the
-// instruction set.
+// Declares the functions that return the tables of the instruction sets; each set has its own translation
+// unit. Use a table only on a processor that has the instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs) \
   namespace nook::isa_##name {                   \
     const world::WorldKernels& world_kernels();  \

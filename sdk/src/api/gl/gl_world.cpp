@@ -26,7 +26,8 @@ unsigned world_users(const gl::Functions& gl, bool computes) {
 
 }  // namespace
 
-// The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
+// Its OpenGL objects can outlive the handle nook_gl, because this object holds a reference to the owner of
+// nook_gl.
 struct nook_world_s : RefCounted {
   nook_world_s(nook_gl_s* made_by, const nook_world_desc& known) : gl(made_by), desc(known) {
     gl->device.report_host_errors();

@@ -16,7 +16,8 @@
 using namespace nook;
 using namespace nook::api;
 
-// The OpenGL objects outlive the handle nook_gl, because this object holds a reference to its owner.
+// Its OpenGL objects can outlive the handle nook_gl, because this object holds a reference to the owner of
+// nook_gl.
 struct nook_nnao_s : RefCounted {
   nook_nnao_s(nook_gl_s* made_by, const gl::NnaoSettings& known, const nnao::Network& network)
       : gl(made_by), desc(known), form(network.form), own_network(made_by->device.memory) {
@@ -162,7 +163,7 @@ nook_result nook_nnao_record(nook_nnao pass, const nook_gl_frame_desc* frame,
     pass->gl->guarded(pass->users() | gl::screen_reads, [&] {
       recorded.emplace(gl::record_frame(device, *pass->pass, pass->desc, pass->network(), known, note));
     });
-    // The context owns the recording, so that you can destroy it on any thread.
+    // The context owns the recording, so that the host can destroy the recording on any thread.
     *out = Owned<nook_nnao_recording_s>::make(device.memory, Ref<const Context>::share(&device.context),
                                               std::move(*recorded))
                .detach();

@@ -12,7 +12,7 @@
 
 using namespace nook;
 
-// Keeps the textures that it writes alive.
+// Holds references to the textures that the capture writes, so that they stay alive.
 struct nook_gl_capture_s : RefCounted {
   nook_gl_capture_s(nook_gl_s* made_by, const nook_gl_capture_desc& desc, const gl::CaptureSettings& settings)
       : gl(made_by),

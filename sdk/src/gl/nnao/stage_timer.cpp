@@ -15,7 +15,7 @@ StageTimer::~StageTimer() {
 }
 
 void StageTimer::mark(int stage) {
-  // Uses time stamps, because the host may have an elapsed-time query active.
+  // Uses time stamps instead of an elapsed-time query, because the host may have such a query active.
   device_.gl.QueryCounter(marks_[frames_ % kept_frames][std::size_t(stage)].name(), GL_TIMESTAMP);
 }
 
