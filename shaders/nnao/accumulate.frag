@@ -1,6 +1,7 @@
-// Blends the AO of a frame with the mean of the frames before it. The cameras and the host's motion vectors
-// tell where a texel's surface was in the earlier frame. Of the four texels around that place, the ones that
-// show the same surface give their AO. sdk/src/nnao/history.h does the same on the CPU.
+// Averages the AO of a frame with the mean of the previous frames. The camera matrices and the host's motion
+// vectors give the position of a texel's surface in the earlier frame. Of the four texels around this
+// position, only the texels that show the same surface are used. sdk/src/nnao/history.h has the same functions
+// for the CPU.
 #include "shaders/nnao/depth.glsl"
 #include "shaders/nnao/host_images.glsl"
 
@@ -20,8 +21,8 @@ out vec4 nook_out;
                                                                 // texture
 #define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // how far the taps' noise takes AO from its mean
 
-// Splits AO in [0, 1] into the nearest 255th, which the filter reads, and the rest. 8 bits alone would freeze
-// a mean of many frames.
+// Splits AO in [0, 1] into the nearest 255th, which the filter reads, and the remainder. With only 8 bits, a
+// mean over many frames would stop changing.
 vec4 nook_packed(float ao, float edges, float frames) {
   float step = floor(255.0 * ao + 0.5);
   return vec4(step, 255.0 * edges, floor(127.5 + 254.0 * (255.0 * ao - step)), frames) / 255.0;
@@ -36,14 +37,14 @@ vec3 nook_earlier_position(vec3 position) {
   return vec3(dot(nook_earlier[0], p), dot(nook_earlier[1], p), dot(nook_earlier[2], p));
 }
 
-// Returns the change of depth to a neighbouring texel along an axis, on the flatter side.
+// Returns the change of depth to the neighbouring texel on the flatter side of an axis.
 float nook_flat_step(float depth, float before, float after) {
   return min(abs(before - depth), abs(after - depth));
 }
 
-// Returns the range in which earlier AO is plausible: the mean of the texels that the edges connect, plus and
-// minus twice their deviation, at least 0.06. It extends no farther from the texel itself than the noise of
-// the taps, so that thin lines stay. Things that moved leave no trail.
+// Returns the range to which earlier AO is clamped. It is the mean of the texels that the edges connect, plus
+// and minus twice their standard deviation (at least 0.06). It is also limited to the noise of the taps around
+// the texel's own AO, which preserves thin lines. The clamp prevents trails behind moving objects.
 vec2 nook_likely_range(ivec2 texel, vec2 centre) {
   ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, nook_surface_size - 1);
   uint bits = uint(255.0 * centre.g + 0.5);
@@ -57,7 +58,8 @@ vec2 nook_likely_range(ivec2 texel, vec2 centre) {
   return vec2(max(mean - reach, centre.r - nook_noise_reach), min(mean + reach, centre.r + nook_noise_reach));
 }
 
-// Returns the mean AO of earlier frames and their number, which is 0 if the surface was not visible.
+// Returns the mean AO of earlier frames, and the number of frames in this mean. The number is 0 if the surface
+// was not visible.
 vec2 nook_earlier_ao(ivec2 texel, float depth) {
   vec3 earlier = nook_earlier_position(nook_position(nook_surface_rays, vec2(texel), depth));
   vec2 place = (earlier.xy / nook_extent(-earlier.z) - nook_earlier_rays.yw) / nook_earlier_rays.xz;
@@ -69,7 +71,7 @@ vec2 nook_earlier_ao(ivec2 texel, float depth) {
 #endif
     place = vec2(texel) - nook_motion_scale * nook_host_texel(nook_motion, pixel).rg;
   }
-  // Also false for NaN.
+  // The condition is also true for NaN, because comparisons with NaN are false.
   if (!(all(greaterThan(place, vec2(-1.0))) && all(lessThan(place, nook_earlier_last + 1.0)))) return vec2(0.0);
   float slope = nook_flat_step(depth, nook_depth_near(texel - ivec2(1, 0)), nook_depth_near(texel + ivec2(1, 0))) +
                 nook_flat_step(depth, nook_depth_near(texel - ivec2(0, 1)), nook_depth_near(texel + ivec2(0, 1)));

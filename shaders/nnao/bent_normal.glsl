@@ -1,9 +1,10 @@
-// Stores the bent normal beside AO and edges, as the two coordinates of a unit vector across the direction to
-// the viewer, in 8 bits each. A filter can average them directly. If a bent normal points away from the
-// viewer, it is turned to the nearest direction that does not.
+// Encodes the bent normal in two channels beside AO and edges. The code is the two coordinates of the unit
+// vector in the plane perpendicular to the direction to the viewer, with 8 bits each. Filters can average
+// these coordinates directly. A bent normal that points away from the viewer is turned to the nearest
+// direction that does not.
 #include "shaders/nnao/frame.glsl"
 
-// Encodes coordinates in [-1, 1] as numbers in [0, 1] for 8 bits; 0 is exact.
+// Maps coordinates in [-1, 1] to [0, 1] for storage in 8 bits. The coordinate 0 is represented exactly.
 vec2 nook_coded(vec2 coordinates) {
   return (127.0 * coordinates + 128.0) / 255.0;
 }
@@ -12,7 +13,7 @@ vec2 nook_decoded(vec2 coded) {
   return (255.0 * coded - 128.0) / 127.0;
 }
 
-// Applies to v the rotation that turns one unit vector into the other.
+// Rotates v by the rotation that turns the unit vector `from` into the unit vector `to`.
 vec3 nook_turned(vec3 v, vec3 from, vec3 to) {
   vec3 between = from + to;
   return v - between * (dot(v, between) / (1.0 + dot(from, to))) + 2.0 * dot(v, from) * to;

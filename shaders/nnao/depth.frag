@@ -1,8 +1,9 @@
 // Writes the linear depth of the surface, for every pixel or for every second pixel of every second row.
-// Later stages read it many times, and decoding the host's depth costs a division each time.
+// Decoding the host's depth takes a division, and later stages read depth many times, so it is decoded only
+// once here.
 #include "shaders/nnao/host_depth.glsl"
 
-// NOOK_NO_SURFACE_ABOVE: if the layer's weight is above this, there is no surface.
+// NOOK_NO_SURFACE_ABOVE is a threshold. Where the weight of the host's layer is above it, there is no surface.
 #ifdef NOOK_NO_SURFACE_ABOVE
 uniform NOOK_HOST_IMAGE nook_layer;
 #endif

@@ -1,14 +1,14 @@
-// Computes how steeply depth changes from a texel to its neighbours, and which of them lie on the same
-// surface. The filter reads the second as 8 bits beside AO.
+// Computes how steeply depth changes from a texel to its neighbours, and which neighbours are on the same
+// surface. The second result is stored in 8 bits beside AO, where the filter reads it.
 #include "shaders/nnao/depth.glsl"
 
-// Left, right, below, above.
+// The components are the neighbours on the left, on the right, below and above.
 struct NookNeighbours {
-  // The change of depth for a step to the left, right and so on. It is divided by the extent at the neighbour
-  // and counted along +x or +y. On a plane, both sides of an axis are equal, because 1 / depth (orthographic:
-  // depth) is linear.
+  // The change of depth from one texel to the next, along +x or +y, divided by the extent at the neighbour. On
+  // a plane, the slopes on both sides of an axis are equal, because 1 / depth (orthographic: depth) is linear
+  // on the screen.
   vec4 slope;
-  vec4 connected;  // 1: the same surface; 0: an edge, or no neighbour
+  vec4 connected;  // 1: on the same surface; 0: an edge, or no neighbour
 };
 
 NookNeighbours nook_neighbours_of(ivec2 texel, float depth) {
@@ -19,15 +19,15 @@ NookNeighbours nook_neighbours_of(ivec2 texel, float depth) {
   // Beyond the border of the screen the surface is assumed to continue.
   vec4 inside = vec4(vec2(texel), nook_surface_last - vec2(texel)).xzyw;
   found.slope = mix(found.slope.yxwz, found.slope, greaterThan(inside, vec4(0.0)));
-  // An edge is where depth differs both from the neighbour's and from the line through the neighbours on both
-  // sides.
+  // There is an edge if depth differs both from the neighbour's depth and from the straight line through the
+  // neighbours on both sides.
   vec4 bend = 0.5 * abs(found.slope.xxzz - found.slope.yyww);
   vec4 off = min(abs(found.slope), bend) * nook_edge_scale(depth);
   found.connected = min(clamp(1.25 - off, 0.0, 1.0), inside);
   return found;
 }
 
-// Packs them in 255ths, two bits for each neighbour.
+// Packs `connected` into 8 bits, two for each neighbour. Returns a multiple of 1 / 255.
 float nook_packed_edges(vec4 connected) {
   return dot(floor(3.0 * connected + 0.5), vec4(64.0, 16.0, 4.0, 1.0)) / 255.0;
 }

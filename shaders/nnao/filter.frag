@@ -1,4 +1,4 @@
-// The filter at the resolution of the surface.
+// Runs the filter at the resolution of the surface.
 #include "shaders/nnao/frame.glsl"
 #include "shaders/nnao/filter.glsl"
 

@@ -1,6 +1,7 @@
-// A bilateral filter along one axis of the screen. Run along x and then along y, it averages 5 x 5 texels with
-// the weights 1, 2, 3, 2, 1 of each axis. All values of the noise of the taps, which repeats after three texels,
-// then count alike. A texel takes part if all edges on the way to it are connected and its AO is similar.
+// A bilateral filter along one axis of the screen. Applied along x and then along y, it averages 5 x 5 texels
+// with the weights 1, 2, 3, 2, 1 along each axis. The noise of the taps repeats every three texels, and with
+// these weights all its values have the same total weight. A texel takes part only if it is connected to the
+// centre without an edge in between, and if its AO is similar.
 uniform sampler2D nook_ao;  // AO, edges, and the bent normal in passes that have it
 
 #ifdef NOOK_FILTER_ALONG_Y
@@ -10,15 +11,15 @@ const uint nook_back_bit = 2u, nook_ahead_bit = 0u;
 const ivec2 nook_filter_step = ivec2(1, 0);
 const uint nook_back_bit = 6u, nook_ahead_bit = 4u;
 #endif
-// Along x the texels are single ones. With nine taps they are too noisy to be compared, and with more they are
-// compared half as sharply.
+// The filter along x reads texels that are not filtered yet. With nine taps they are too noisy for a
+// comparison. With more taps, the sharpness of the comparison is halved.
 #ifdef NOOK_FILTER_ALONG_Y
 #define NOOK_FILTER_SHARPNESS nook_range_sharpness
 #elif NOOK_DIRECTIONS > 3
 #define NOOK_FILTER_SHARPNESS (0.5 * nook_range_sharpness)
 #endif
 
-// Returns an edge of a value of nook_ao, 0 to 3.
+// Returns one of the four edges that a value of nook_ao contains, as 0 to 3.
 float nook_edge(vec4 texel, uint bit) {
   return float(uint(255.0 * texel.g + 0.5) >> bit & 3u);
 }
@@ -39,14 +40,14 @@ void nook_add_texel(inout NookFilterSum sum, vec4 centre, vec4 texel, float weig
 #endif
 }
 
-// Adds the two texels on one side. edge: the centre's edge towards them, 0 to 3.
+// Adds the two texels on one side of the centre. `edge` is the centre's edge towards them, 0 to 3.
 void nook_add_side(inout NookFilterSum sum, vec4 centre, float edge, ivec2 near, ivec2 far, uint bit) {
   vec4 texel = texelFetch(nook_ao, near, 0);
   nook_add_texel(sum, centre, texel, edge * (2.0 / 9.0));
   nook_add_texel(sum, centre, texelFetch(nook_ao, far, 0), edge * nook_edge(texel, bit) * (1.0 / 27.0));
 }
 
-// Returns a texel after the filter; its edges stay the same.
+// Returns a filtered texel. Its edges are not changed.
 vec4 nook_filtered(ivec2 texel, ivec2 last) {
   ivec2 one = nook_filter_step, two = 2 * nook_filter_step;
   vec4 centre = texelFetch(nook_ao, texel, 0);

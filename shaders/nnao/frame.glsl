@@ -1,6 +1,6 @@
-// Values that are equal for all pixels of a frame; nnao_frame.h fills them. Pixels count within the viewport,
-// with (0, 0) at its lower left corner. The surface is the viewport at the resolution at which AO is
-// computed: every pixel, or every second pixel of every second row.
+// Values that are the same for all pixels of a frame. nnao_frame.h computes them. Pixel coordinates are
+// relative to the viewport, with (0, 0) at its lower left corner. The surface is the viewport at the
+// resolution of AO: every pixel, or every second pixel of every second row.
 #include "shaders/nnao/layout.h"
 uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 
@@ -42,19 +42,20 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_own_weight nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].w  // of a texel in its filtered value: 1, or so much that the filter leaves
                                                                     // every texel as it is
 
-// The depth where there is no surface: sky and far plane. Its square is still a float.
+// The depth where there is no surface, which is the sky or the far plane. Its square does not overflow a
+// float.
 const float nook_no_surface = 1.0e15;
 
 bool nook_inside(ivec2 texel, ivec2 size) {
   return all(greaterThanEqual(texel, ivec2(0))) && all(lessThan(texel, size));
 }
 
-// Returns the extent at a depth: multiply a pixel's ray by it to get view-space x and y.
+// Returns the extent at a depth. The extent times a pixel's ray is the x and y in view space.
 float nook_extent(float depth) {
   return nook_spread.x * depth + nook_spread.y;
 }
 
-// Returns the extent at a depth divided by the depth change that makes an edge there.
+// Returns the extent at a depth, divided by the change of depth that is treated as an edge there.
 float nook_edge_scale(float depth) {
   return nook_extent(depth) * nook_edges_per_metre + nook_edges_per_extent;
 }
@@ -73,9 +74,10 @@ vec2 nook_pixel_scale(float depth) {
   return 1.0 / (nook_surface_rays.xz * nook_extent(depth));
 }
 
-// Returns the radius of a pixel in metres and in texels, and the share of its darkness that counts. The
-// radius shrinks if it would cover too many texels, and grows if it would cover too few. When it grows,
-// darkness spreads over more texels, and the share keeps its sum.
+// Returns the radius of a pixel in metres and in texels, and the factor by which the pixel's darkness (1 - AO)
+// is multiplied. The radius is reduced if it covers too many texels, and enlarged if it covers too few. If it
+// is enlarged, an occluder darkens more texels; the factor keeps the total darkness the same. The factor also
+// contains the fade with distance.
 vec3 nook_pixel_radius(vec2 scale, float depth) {
   float per_metre = abs(scale.y), wanted = nook_radius * per_metre;
   float texels = clamp(wanted, nook_min_radius_px, nook_max_radius_px);

@@ -1,9 +1,9 @@
-// The horizon form, which network.h defines. Four units are one vec4. The layers are tap, direction, join and
-// out, in the order of network.h. The shader sums where the network has means, so the weights of means
-// contain the division.
+// Evaluates the horizon form of the network; network.h defines it. Four units are stored in one vec4. The
+// layers are tap, direction, join and out, in the order of network.h. Where the network has a mean, the shader
+// computes a sum, and the weights include the division.
 uniform vec4 nook_network[NOOK_HORIZON_VEC4S];
-// The number of directions. If there are many, it is not a constant: compilers would unroll all of them, into
-// more code than caches hold.
+// The number of directions. If it is large, it is a uniform instead of a constant. Otherwise compilers would
+// unroll the loop into more code than fits into the instruction cache.
 #if NOOK_DIRECTIONS > 4
 uniform int nook_tap_groups;
 #define NOOK_LOOPED_DIRECTIONS nook_tap_groups
@@ -18,7 +18,7 @@ struct NookCentre {
   vec2 place;  // the texel's centre
   vec3 position, normal, viewer;
   float half_nearness;          // 1 / 2r
-  float min_squared;            // of the distance of a tap, square metres
+  float min_squared;            // minimum squared distance of a tap, square metres
   float steps_px[NOOK_STEPS];   // distances of the taps of a direction, texels along the screen's y axis
 };
 
@@ -32,7 +32,7 @@ vec4 nook_leaky(vec4 x, int slope) {
 }
 
 struct NookHorizon {
-  vec4 most, sum;  // of the units
+  vec4 most, sum;  // maximum and sum of the units over the steps
   float bound;     // the greatest elevation times nearness, at least 0
 };
 
@@ -56,14 +56,14 @@ struct NookSums {
   vec3 bent;
 };
 
-// direction: a unit vector in view space. gate, bent_gate: the layers' gates, except for what differs between
-// directions.
+// Adds the taps of one direction to the sums. `direction` is a unit vector in view space. `gate` and
+// `bent_gate` are the parts of the gates that are the same for all directions.
 void nook_add_direction(inout NookSums sums, NookCentre centre, vec2 direction, vec2 scale, vec4 gate, vec2 bent_gate) {
   vec2 along_px = nook_horizon_tap(direction, 1.0, scale);
   NookHorizon found = NookHorizon(vec4(0.0), vec4(0.0), 0.0);
   for (int i = 0; i < NOOK_STEPS; ++i) nook_add_tap(found, centre, centre.place + along_px * centre.steps_px[i]);
-  // `across` is the dot product of the normal with a unit vector, which is across the direction to the viewer
-  // and in the direction's plane.
+  // `across` is the dot product of the normal and a unit vector. This vector is perpendicular to the direction
+  // to the viewer and lies in the plane of `direction`.
   float towards = dot(direction, centre.viewer.xy), per_length = inversesqrt(1.0 - towards * towards);
   float across = (dot(direction, centre.normal.xy) - towards * dot(centre.normal, centre.viewer)) * per_length;
   vec4 x = nook_products(found.most, NOOK_HORIZON_DIRECTION) + nook_products(found.sum, NOOK_HORIZON_DIRECTION + 4);
@@ -78,13 +78,13 @@ void nook_add_direction(inout NookSums sums, NookCentre centre, vec2 direction, 
 #endif
 }
 
-// Returns the distance from the nearest border, in texels.
+// Returns the distance of a place from the nearest border of the screen, in texels.
 float nook_border_distance(vec2 place) {
   vec2 inside = min(place, nook_surface_last + 1.0 - place);
   return min(inside.x, inside.y);
 }
 
-// Returns AO. In passes with bent normals, bent becomes the bent normal, not normalised.
+// Returns AO. In passes with bent normals, `bent` is set to the bent normal, which is not normalised.
 float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 radius, out vec3 bent) {
   vec2 noise = nook_tap_noise(texel);
   NookCentre centre;
@@ -93,9 +93,9 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   centre.normal = normal;
   centre.viewer = nook_to_viewer(position);
   centre.half_nearness = 0.5 / radius.x;
-  // At the border of the screen, taps meet their own pixel. Then v is 0 except for rounding, which would act
-  // as a random direction. Half a pixel is less than the distance of any other pixel, for fields of view up
-  // to 120 degrees.
+  // At the border of the screen, a tap can be clamped to the pixel itself. Its v should be 0, and the rounding
+  // error would act as a random direction. So distances are raised to half a pixel, which is less than the
+  // distance of any other pixel for fields of view up to 120 degrees.
   float half_pixel = 0.5 / max(abs(scale.x), abs(scale.y));
   centre.min_squared = half_pixel * half_pixel;
   for (int i = 0; i < NOOK_STEPS; ++i) centre.steps_px[i] = nook_step_distance(i, NOOK_STEPS, noise, radius.y);

@@ -13,7 +13,7 @@ float nook_view_depth(float stored, ivec2 pixel) {
   if (nook_log_rate != 0.0) stored = exp2(nook_log_rate * stored);
   float depth = (nook_depth_decode.x + nook_depth_decode.y * stored) /
                 (nook_depth_decode.z + nook_depth_decode.w * stored);
-  // Comparisons with NaN are false.
+  // If depth is NaN, the comparisons are false, and there is no surface.
   return depth > nook_min_depth && depth < nook_no_surface ? depth : nook_no_surface;
 }
 
@@ -27,7 +27,8 @@ NookDepthSample nook_sample_at(ivec2 pixel, int number) {
   return NookDepthSample(nook_view_depth(nook_host_sample(nook_host_depth, pixel, number).r, pixel), number);
 }
 
-// Returns the sample that nook_nnao_sample selects; sdk/src/nnao/host_depth.h does the same on the CPU.
+// Returns the depth sample that the rule nook_nnao_sample selects. sdk/src/nnao/host_depth.h has the same
+// function for the CPU.
 NookDepthSample nook_chosen_sample(ivec2 pixel) {
 #if NOOK_SAMPLE_RULE == NOOK_SAMPLE_FIRST
   return nook_sample_at(pixel, 0);

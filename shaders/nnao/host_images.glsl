@@ -1,4 +1,5 @@
-// The host's images are 2D textures or one layer of texture arrays, each with or without samples.
+// Fetches from the host's images. They are 2D textures or one layer of texture arrays, with or without
+// multisampling.
 #include "shaders/nnao/frame.glsl"
 #ifdef NOOK_LAYERS
 #define NOOK_HOST_IMAGE sampler2DArray

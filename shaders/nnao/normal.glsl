@@ -1,4 +1,5 @@
-// Returns the normal of a texel of the surface: the host's normal, or one derived from the depths around it.
+// Computes the normal of a texel of the surface. It is the host's normal, or a normal derived from the depths
+// around the texel.
 #include "shaders/nnao/edges.glsl"
 #include "shaders/nnao/host_images.glsl"
 
@@ -8,9 +9,9 @@ uniform NOOK_HOST_SAMPLES nook_host_normal;
 uniform NOOK_HOST_IMAGE nook_host_normal;
 #endif
 
-// Returns the slope along one axis from the slopes on both sides, each weighted by the inverse of its square.
-// Past a silhouette, depth changes more steeply than on the texel's own surface. On a wire both sides
-// balance, so that the normal does not turn sideways.
+// Returns the slope along one axis, which is the mean of the slopes on both sides. The weight of a slope is
+// the inverse of its square, because beyond a silhouette, depth changes more steeply than on the texel's own
+// surface. On a thin wire, both sides cancel out, so that the normal does not turn sideways.
 float nook_axis_slope(vec2 slope) {
   vec2 steep = slope * slope + 1.0e-12;
   return dot(slope, steep.yx) / (steep.x + steep.y);
@@ -22,7 +23,7 @@ vec3 nook_rebuilt_normal(ivec2 texel, NookNeighbours around) {
   return normalize(vec3(slope, 1.0 + nook_spread.x * dot(ray, slope)));
 }
 
-// Returns what the host has stored for the screen pixel of a texel of the surface.
+// Returns the host's texel in the normal texture, for a texel of the surface and its screen pixel.
 vec3 nook_stored_normal(ivec2 texel, ivec2 pixel) {
 #ifdef NOOK_NORMAL_SAMPLES
   return nook_host_sample(nook_host_normal, pixel, int(texelFetch(nook_depth, texel, 0).g)).xyz;
@@ -40,7 +41,8 @@ vec3 nook_texel_normal(ivec2 texel, NookNeighbours around) {
 #endif
     vec3 n = nook_normal_matrix * (nook_stored_normal(texel, pixel) * nook_normal_scale + nook_normal_bias);
     float size = length(n);
-    // If the length is outside these bounds, nothing was drawn here, or not a normal.
+    // If the length is outside these limits, the host has drawn nothing here, or something that is not a
+    // normal.
     if (size > nook_shortest_normal && size < 1.0e6) return n / size;
   }
   return nook_rebuilt_normal(texel, around);

@@ -1,4 +1,4 @@
-// The network as a draw.
+// Runs the network as a fragment shader.
 #include "shaders/nnao/occlusion.glsl"
 
 #if NOOK_BENT_NORMALS

@@ -1,5 +1,5 @@
-// Computes the AO of a texel of the surface with the network, before the filter, and the edges around it. The
-// fragment and the compute path share this file.
+// Computes the raw AO of a texel of the surface with the network, and the edges around the texel. The fragment
+// shader and the compute shader share this file.
 #include "shaders/nnao/normal.glsl"
 #include "shaders/nnao/taps.glsl"
 #if NOOK_BENT_NORMALS
@@ -25,7 +25,7 @@ vec4 nook_occlusion(ivec2 texel) {
   vec3 position = nook_position(nook_surface_rays, vec2(texel), depth), bent;
   vec3 radius = nook_pixel_radius(scale, depth);
   float ao = nook_evaluate(texel, position, normal, scale, radius.xy, bent);
-  // Exactly AO if all of it counts.
+  // If the factor radius.z is 1, this is exactly AO.
   ao = radius.z * ao + (1.0 - radius.z);
   vec4 found = vec4(clamp(ao, 0.0, 1.0), nook_packed_edges(around.connected), 0.0, 1.0);
 #if NOOK_BENT_NORMALS

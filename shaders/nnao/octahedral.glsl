@@ -1,5 +1,5 @@
-// Unit vectors as two numbers in [0, 1]: the sphere is projected onto an octahedron and unfolded into a
-// square.
+// Encodes unit vectors as two values in [0, 1]. The sphere is projected onto an octahedron, which is unfolded
+// into a square.
 vec2 nook_signs(vec2 v) {
   return vec2(v.x >= 0.0 ? 1.0 : -1.0, v.y >= 0.0 ? 1.0 : -1.0);
 }

@@ -1,11 +1,11 @@
-// The paper's network, which network.h defines. A tap's input is
+// Evaluates the paper's network; network.h defines it. The input of a tap is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
 #include "shaders/core/texels.glsl"
 #include "shaders/nnao/surface_normal.glsl"
 uniform NOOK_TEXELS nook_filters;  // each cell of the grid has four texels, one for each input, of four units
 uniform vec4 nook_network[NOOK_PAPER_VEC4S];  // the other layers, in the order of network.h
-// The number of taps, NOOK_STEPS at a time. It is not a constant: compilers would unroll all of them, into
-// more code than caches hold.
+// The number of groups of NOOK_STEPS taps. It is a uniform instead of a constant, because compilers would
+// unroll the loop into more code than fits into the instruction cache.
 uniform int nook_tap_groups;
 
 vec4 nook_prelu(vec4 x, int slopes) {

@@ -1,4 +1,5 @@
-// Computes the output from the AO of the surface: the filter or the upsample, strength, the layer.
+// Computes the output from the AO of the surface. It filters or upsamples AO, applies intensity and power, and
+// combines AO with the host's layer.
 #include "shaders/nnao/output.glsl"
 #if NOOK_HALF
 #include "shaders/nnao/host_depth.glsl"
@@ -13,7 +14,7 @@
 
 out vec4 nook_out;
 
-// Returns AO, and the bent normal in blue and alpha.
+// Returns AO in red, and the encoded bent normal in blue and alpha.
 vec4 nook_screen_value(ivec2 pixel) {
 #if NOOK_HALF
   float depth = nook_screen_depth(pixel);

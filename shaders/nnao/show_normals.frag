@@ -1,4 +1,4 @@
-// Shows the normals that the network uses, as (n + 1) / 2; black where there is no surface.
+// Shows the normals that the network uses, as (n + 1) / 2. Pixels without a surface are black.
 #include "shaders/nnao/normal.glsl"
 
 out vec4 nook_out;

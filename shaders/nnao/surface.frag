@@ -1,4 +1,4 @@
-// Draws a pixel where the host's depth has a surface, so that a query tells whether there is any.
+// Draws only the pixels in which the host's depth shows a surface. A query then tells whether there are any.
 #include "shaders/nnao/host_depth.glsl"
 
 out vec4 nook_out;

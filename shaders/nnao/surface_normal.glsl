@@ -1,4 +1,4 @@
-// The normals of the surface, as normals.frag writes them.
+// Reads the normals of the surface that normals.frag has written.
 #include "shaders/nnao/octahedral.glsl"
 
 #if defined(GL_ES)

@@ -1,8 +1,8 @@
-// The positions of a pixel's taps, as in sdk/src/nnao/taps.h.
+// Computes the positions of a pixel's taps. sdk/src/nnao/taps.h has the same functions.
 
 #include "shaders/nnao/layout.h"
 
-// rotation, offset: each takes 9 values over 3 x 3 pixels.
+// Returns the noise for rotation and offset. Each takes 9 different values over 3 x 3 pixels.
 vec2 nook_tap_noise(ivec2 texel) {
   vec2 at = vec2(texel);
   vec2 cell = at - 3.0 * floor((at + 0.5) / 3.0);
@@ -13,12 +13,12 @@ vec2 nook_tap_noise(ivec2 texel) {
   return noise;
 }
 
-// Radians in the view-space x-y plane.
+// Returns the angle of a direction in the x-y plane of view space, in radians.
 float nook_direction_angle(int direction, int directions, vec2 noise) {
   return 6.2831853 * (float(direction) + noise.x) / float(directions);
 }
 
-// Texels along the screen's y axis.
+// Returns the distance of a step from the pixel, in texels along the screen's y axis.
 float nook_step_distance(int tap_step, int steps, vec2 noise, float radius_px) {
   float share = (float(tap_step) + noise.y) / float(steps);
   return max(float(tap_step) + 1.0, radius_px * share * sqrt(share));
@@ -35,7 +35,7 @@ int nook_paper_tap_cell(int tap, int taps, vec2 noise) {
   return min(int((float(tap) + noise.x) * (float(nook_grid_cells) / float(taps))), nook_grid_cells - 1);
 }
 
-// scale is in texels per metre.
+// Returns the position of a tap of the paper's form. `scale` is in texels per metre.
 vec2 nook_paper_tap(int cell, int taps, vec2 noise, float radius, vec2 scale) {
   vec2 place = vec2(cell % nook_grid_size, cell / nook_grid_size) + 0.5;
   if (taps < nook_grid_cells) place += vec2(noise.y, fract(4.0 * noise.x)) - 0.5;

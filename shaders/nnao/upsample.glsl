@@ -1,5 +1,5 @@
-// Upsamples with a joint-bilateral filter. AO of a pixel comes from the four texels of the half-size surface
-// around it, weighted by how well they lie on the pixel's plane.
+// Upsamples with a joint bilateral filter. The AO of a pixel is the weighted mean of the four texels of the
+// half-size surface around it. The weight of a texel depends on how close it is to the pixel's plane.
 #include "shaders/nnao/depth.glsl"
 
 uniform sampler2D nook_ao;
@@ -16,12 +16,12 @@ float nook_smaller(float a, float b) {
 #ifdef NOOK_GATHERS
 uniform vec2 nook_texel_size;  // the inverse of the size of nook_depth and nook_ao, in texels
 
-// Reads the four texels above and right of `low` with one look-up of each texture: left, right; then above
-// them. Only the red channel of nook_ao is read, unless its texels are colours.
+// Reads four texels with one lookup per texture: `low`, the texel on its right, and the two texels above. Only
+// the red channel of nook_ao is read, unless its texels are colours.
 void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
   vec2 middle = vec2(low + 1) * nook_texel_size;
   depths = uintBitsToFloat(textureGather(nook_depth, middle).wzxy);
-  // A surface that is one texel wide along an axis has no second texel there.
+  // If the surface is only one texel wide along an axis, there is no second texel along this axis.
   bvec2 lone = lessThan(nook_surface_size, ivec2(2));
   if (lone.x) depths.yw = vec2(nook_no_surface);
   if (lone.y) depths.zw = vec2(nook_no_surface);
@@ -44,7 +44,7 @@ void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
 #endif
 
 #ifdef NOOK_LAYERED
-// Returns the value of the texel that is nearest in depth, among the texels around the four.
+// Returns the value of the texel whose depth is nearest, among the texels around the four.
 vec4 nook_value_around(ivec2 low, float depth) {
   vec4 found = nook_open;
   float least = nook_no_surface;
@@ -59,11 +59,12 @@ vec4 nook_value_around(ivec2 low, float depth) {
 }
 #endif
 
-// Returns a value of nook_ao; its edges are meaningless.
+// Returns an upsampled value of nook_ao. The edges in the result are meaningless.
 vec4 nook_upsampled(ivec2 pixel, float depth) {
   ivec2 low = pixel / 2;
 #ifdef NOOK_GATHERS
-  // Both texels of an axis lie on the surface, but the pixel may lie beyond them.
+  // Moves the quad so that both texels of each axis lie on the surface. The pixel may then lie outside the
+  // quad.
   low = max(min(low, nook_surface_size - 2), ivec2(0));
 #endif
   vec4 depths;
@@ -83,7 +84,7 @@ vec4 nook_upsampled(ivec2 pixel, float depth) {
   weights *= vec4(notEqual(depths, vec4(nook_no_surface)));
   float sum = dot(weights, vec4(1.0));
 #ifdef NOOK_LAYERED
-  // Beside a foot that the layer leaves out, the floor may have none of the four texels.
+  // All four weights can be 0, for example on the floor beside a foot that the layer excludes.
   if (sum == 0.0 && nook_layer_mode >= NOOK_LAYER_REPLACE) return nook_value_around(low, depth);
 #endif
   return sum > 0.0 ? values * weights / sum : nook_open;
