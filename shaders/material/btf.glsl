@@ -1,4 +1,4 @@
-// Decoding of a clustered BTF, also on a relief.
+// Decodes a clustered BTF, with or without a relief.
 #if NOOK_RELIEF
 // Returns the point of the tile over which the view's ray through uv first meets the relief.
 // sdk/src/material/relief_tables.cpp has the same function.
@@ -24,8 +24,8 @@ vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
 }
 #endif
 
-// Computes the mean light modes of places for the view. On a relief, the view's ray through each place hits
-// its own point.
+// Computes the mean light modes of several places for the view. On a relief, each place is first moved to the
+// point that the view's ray through it hits.
 void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
@@ -49,21 +49,21 @@ void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[N
   }
 }
 
-// Computes the light modes at the point uv for the view. dx and dy are the pixel's sides, over which it
-// filters.
+// Computes the light modes at the point uv for the view. dx and dy are the derivatives of uv along the pixel's
+// sides, over which the function filters.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_one_fetch(uv, dx, dy, NOOK_BTF_TEXELS), view, modes);
 }
 
-// The same with several fetches of each mode along the longer side of the pixel, which keeps grazing views
-// sharp.
+// Like nook_material_decode, but with several fetches of each mode along the longer side of the pixel, which
+// keeps grazing views sharp.
 void nook_material_decode_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int fetches,
                                       out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_fetches_along(uv, dx, dy, NOOK_BTF_TEXELS, fetches), view, modes);
 }
 
-// Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light. Compression may
-// leave a sum slightly negative, which is clamped.
+// Returns the radiance towards the view for a light that causes an irradiance of 1 on a plane facing the
+// light. Because of compression, a sum may be slightly negative; it is clamped to 0.
 vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_VEC4_COUNT], vec3 light) {
   vec3 radiance = vec3(0.0);
   if (light.z <= 0.0) return radiance;

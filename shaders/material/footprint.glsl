@@ -1,13 +1,15 @@
-// The places of the tile that a pixel reads. sdk/src/material/footprint.h describes them and has the same functions.
+// Finds the places of the tile that a pixel reads. sdk/src/material/footprint.h describes them and has the
+// same functions.
 
-// A pixel reads the mean over the first `count` places; they share one mipmap level.
+// The pixel's value is the mean over the first `count` places. All places have the same mipmap level.
 struct NookMaterialFetches {
   int count;
   float level;
   vec2 place[NOOK_MATERIAL_MAX_FETCHES];
 };
 
-// Returns one place, for a pixel whose sides both count as the longer one.
+// Returns a single place. Its mipmap level is chosen as if both sides of the pixel were as long as the longer
+// one.
 NookMaterialFetches nook_material_one_fetch(vec2 uv, vec2 dx, vec2 dy, vec2 texels) {
   NookMaterialFetches at;
   at.count = 1;
@@ -16,14 +18,13 @@ NookMaterialFetches nook_material_one_fetch(vec2 uv, vec2 dx, vec2 dy, vec2 texe
   return at;
 }
 
-// Returns `fetches` places along the longer axis of the pixel's footprint, from 1 to
-// NOOK_MATERIAL_MAX_FETCHES.
+// Returns `fetches` places, 1 to NOOK_MATERIAL_MAX_FETCHES, along the longer axis of the pixel's footprint.
 NookMaterialFetches nook_material_fetches_along(vec2 uv, vec2 dx, vec2 dy, vec2 texels, int fetches) {
   vec2 across = vec2(dx.x, dy.x) * texels.x, up = vec2(dx.y, dy.y) * texels.y;
   float xx = dot(across, across), yy = dot(up, up), xy = dot(across, up);
   float mean = 0.5 * (xx + yy), half_difference = 0.5 * (xx - yy);
   float from_mean = sqrt(half_difference * half_difference + xy * xy), longer2 = mean + from_mean;
-  // False for NaN.
+  // This is false if a derivative is NaN.
   bool is_in_range = longer2 < 1e18;
   NookMaterialFetches at;
   at.count = clamp(fetches, 1, NOOK_MATERIAL_MAX_FETCHES);

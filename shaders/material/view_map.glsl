@@ -1,22 +1,22 @@
-// Mipmap levels, and cells of view maps.
+// Computes mipmap levels, and finds cells of view maps.
 #include "shaders/material/parabolic.glsl"
 
-// Returns the mipmap level of a pixel with the sides dx and dy. All fetches share it, so that they need no
-// derivatives, which is faster and works in branches.
+// Returns the mipmap level for a pixel with the derivatives dx and dy. All fetches use this level explicitly.
+// This is faster than implicit derivatives, and it also works inside branches.
 float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
   dx *= texels;
   dy *= texels;
   return 0.5 * log2(max(max(dot(dx, dx), dot(dy, dy)), 1e-30));
 }
 
-// A cell of a view map, with the neighbours along x and y that it blends with and their weights.
+// A cell of a view map, the neighbours along x and y with which it blends, and their weights.
 struct NookMaterialCell {
   ivec2 cell, x, y;
   float weight_x, weight_y;
 };
 
-// Finds the cell of a view and its neighbours. `neighbours` holds the step + 1 in two bits for each half of
-// the cell. sdk/src/material/view_cells.h has the same function.
+// Finds the neighbours and weights for a view in a cell. `neighbours` stores step + 1 in two bits for each
+// half of the cell. sdk/src/material/view_cells.h has the same function.
 NookMaterialCell nook_material_blend(vec2 place, ivec2 cell, int neighbours) {
   vec2 at = place - vec2(cell) - 0.5;
   int x = (neighbours >> (at.x > 0.0 ? 2 : 0) & 3) - 1, y = (neighbours >> (at.y > 0.0 ? 6 : 4) & 3) - 1;
@@ -29,8 +29,8 @@ vec4 nook_material_blended(highp sampler2DArray coefficients, NookMaterialCell c
          texelFetch(coefficients, ivec3(c.y, layer), 0) * c.weight_y;
 }
 
-// Where to find the terms of a tensor for a view: the cell of the view, and the clusters of four terms. They
-// are the terms in evaluation; the last four also hold the cell's neighbours.
+// The terms of a tensor for a view: the cell of the view, and cluster indices. `clusters` has the four terms
+// that are currently evaluated. `last` has the last four, which include the code of the cell's neighbours.
 struct NookMaterialTerms {
   NookMaterialCell cell;
   uvec4 clusters, last;

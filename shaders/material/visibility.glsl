@@ -1,6 +1,6 @@
-// Decoding of a VOTF.
+// Decodes a VOTF.
 #if NOOK_VOTF_TERMS > 0
-// Returns the mean of the VOTF over places.
+// Returns the mean of the VOTF over several places.
 float nook_material_occlusion_at(NookMaterialFetches at, vec3 view) {
   vec2 place = nook_parabolic_place(view, NOOK_VOTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_VOTF_SIDE - 1));
@@ -15,7 +15,7 @@ float nook_material_occlusion_at(NookMaterialFetches at, vec3 view) {
 }
 #endif
 
-// Returns the VOTF, a filtered mask or signed distance.
+// Returns the value of the VOTF, which is a filtered mask or signed distance.
 float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
 #if NOOK_VOTF_TERMS == 0
   return 1.0;
@@ -24,7 +24,7 @@ float nook_material_occlusion(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
 #endif
 }
 
-// The same with several fetches of each mode along the longer side of the pixel.
+// Like nook_material_occlusion, but with several fetches of each mode along the longer side of the pixel.
 float nook_material_occlusion_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int fetches) {
 #if NOOK_VOTF_TERMS == 0
   return 1.0;
@@ -33,8 +33,8 @@ float nook_material_occlusion_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, 
 #endif
 }
 
-// The visibility mapping, equation (26): 1 is fully visible, 0 is invisible, and values between are partly
-// visible.
+// Applies the visibility mapping, equation (26). The result is 1 if the surface is fully visible, 0 if it is
+// invisible, and in between if it is partly visible.
 float nook_material_visibility(float occlusion) {
 #if NOOK_VOTF_TERMS == 0
   return 1.0;

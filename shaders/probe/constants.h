@@ -3,7 +3,7 @@
 #ifndef NOOK_PROBE_CONSTANTS_H
 #define NOOK_PROBE_CONSTANTS_H
 
-// Real spherical harmonics are orthonormal with the factors of 1; of y, z, x; of xy, yz, xz; of 3zz - 1; of
+// Factors that make real spherical harmonics orthonormal. They multiply 1; y, z, x; xy, yz, xz; 3zz - 1; and
 // xx - yy.
 #define NOOK_HARMONICS_0 0.28209479177387814
 #define NOOK_HARMONICS_1 0.4886025119029199
@@ -11,34 +11,35 @@
 #define NOOK_HARMONICS_2_ZONAL 0.31539156525252005
 #define NOOK_HARMONICS_2_SQUARES 0.5462742152960396
 
-// Luminance of linear RGB with the primaries of Rec. 709.
+// Luminance weights of linear RGB with the primaries of Rec. 709.
 #define NOOK_LUMINANCE_RED 0.2126
 #define NOOK_LUMINANCE_GREEN 0.7152
 #define NOOK_LUMINANCE_BLUE 0.0722
 
-// Grids in 3D textures. The walls of a cell are planes, which cut it into sides. Shares of a place between
-// two probes stay this far from 0 and 1. So probes on a point's own side keep their proportions even if
-// others have all the weight.
+// Grids in 3D textures. The walls of a cell are planes that cut the cell into sides. NOOK_GRID_LEAST_SHARE is
+// the minimum distance of interpolation factors from 0 and 1. It ensures that the probes on a point's own side
+// have weights above 0, in the right proportions, even if trilinear interpolation would give all weight to
+// other probes.
 #define NOOK_GRID_PLANES 3
 #define NOOK_GRID_SIDES 8
 #define NOOK_GRID_LEAST_SHARE 0.00390625
-// Texels of a probe: bands 0 to 2, and ZH3. A cell has texels for its planes, and for the masks of four sides
-// each.
+// A probe takes this many texels with bands 0 to 2, and with ZH3. A cell also has texels for its planes, and
+// texels with the masks of four sides each.
 #define NOOK_GRID_HARMONICS_TEXELS 7
 #define NOOK_GRID_ZONAL_TEXELS 4
 #define NOOK_GRID_WALL_TEXELS 5
 
-// GGX reflection: coefficients of polynomials of two variables, which sum k u^i v^j over i + j <= degree, j
-// fastest. tests/probe/ggx_fit.cpp fits them.
+// GGX reflection: coefficients of polynomials of two variables. A polynomial is the sum of k u^i v^j over i +
+// j <= degree, where j varies fastest. tests/probe/ggx_fit.cpp fits the coefficients.
 #define NOOK_GGX_ALBEDO_0 1.02286, -0.143031, 0.0444111, 0.284177, -0.255489
 #define NOOK_GGX_ALBEDO_1 -0.30345, -0.137175, -2.94936, 1.20419, 0.634343
 #define NOOK_GGX_ALBEDO_2 2.18437, 0.950226, -1.52654, -1.87658, 1.17025
 #define NOOK_GGX_FRESNEL_0 0.0959894, 2.7088, -4.49875, 2.04796, 0.0822377
 #define NOOK_GGX_FRESNEL_1 -1.19048, 0.453772, 5.69707, -4.60221, 0.51734
 #define NOOK_GGX_FRESNEL_2 -7.41744, 4.8863, 2.22828, -0.318929, -0.891444
-// Visible normals stand for all: one for a single lobe, or four: one towards the eye, one away from it, and a
-// pair beside them. They have places on the disc, shares of it, and sharpness divided by the density of
-// directions.
+// A few visible normals represent all visible normals. For a single lobe, there is one normal. For four lobes,
+// there is one normal towards the eye, one away from the eye, and one on each side. Each normal has a place on
+// the disc, a share of the disc, and a sharpness divided by the density of directions.
 #define NOOK_GGX_MIDDLE_ALONG -0.629765, 1.84005, -0.724038, 0.327629, -0.673784, -0.0885385
 #define NOOK_GGX_MIDDLE_SHARPNESS 1.38497, -3.91715, 4.77755, -1.724, 2.54411, 0.661453
 #define NOOK_GGX_NEAR_ALONG -0.837711, 0.119602, 0.228392, -0.168367, 0.227789, 0.034692

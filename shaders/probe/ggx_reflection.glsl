@@ -1,5 +1,5 @@
-// The reflection of a GGX surface as numbers that depend only on the view, as in
-// sdk/src/probe/ggx_reflection.h.
+// The parts of a GGX surface's reflection that depend only on the view. sdk/src/probe/ggx_reflection.h has the
+// same functions.
 #include "shaders/probe/constants.h"
 
 struct NookProbeSurface {
@@ -49,7 +49,7 @@ float nook_probe_quartic(float u, float v, float k0, float k1, float k2, float k
          u * (k5 + v * (k6 + v * (k7 + v * k8)) + u * (k9 + v * (k10 + v * k11) + u * (k12 + v * k13 + u * k14)));
 }
 
-// Returns the share of uniform light that leaves towards the eye.
+// Returns the fraction of uniform light that the surface reflects towards the eye.
 float nook_probe_directional_albedo(NookProbeSurfaceView v, NookProbeSurface surface) {
   float mean2 = 0.5 * (v.alpha2.x + v.alpha2.y), away = 1.0 - v.facing;
   float alpha = sqrt(clamp(mean2 - 0.5 * away * away * away * (v.alpha2.x - mean2), 0.0, 1.0));
@@ -60,12 +60,12 @@ float nook_probe_directional_albedo(NookProbeSurfaceView v, NookProbeSurface sur
   return whole * (surface.reflectance + (1.0 - surface.reflectance) * off2 * off2 * off);
 }
 
-// Four visible normals side by side; sdk/src/probe/ggx_reflection.h describes one.
+// Four visible normals, one in each component. sdk/src/probe/ggx_reflection.h describes the fields.
 struct NookProbeVisibleNormals {
   vec4 across, along, share, sharpness;
 };
 
-// Returns the root of the isotropic width that stands for both.
+// Returns the square root of the isotropic width that replaces both widths.
 float nook_probe_mean_roughness(NookProbeSurface surface) { return sqrt(sqrt(surface.alpha.x * surface.alpha.y)); }
 
 NookProbeVisibleNormals nook_probe_visible_normals(NookProbeSurfaceView v, NookProbeSurface surface) {
@@ -82,7 +82,7 @@ NookProbeVisibleNormals nook_probe_visible_normals(NookProbeSurfaceView v, NookP
   return all;
 }
 
-// Returns only the middle normal, in the first place; the others have no weight.
+// Returns the normal for a single lobe in the first component. The other normals have no weight.
 NookProbeVisibleNormals nook_probe_middle_normal(NookProbeSurfaceView v, NookProbeSurface surface) {
   float u = v.openness, rho = nook_probe_mean_roughness(surface);
   return NookProbeVisibleNormals(vec4(0.0), vec4(nook_probe_quadratic(u, rho, NOOK_GGX_MIDDLE_ALONG)), vec4(1.0, 0.0, 0.0, 0.0),

@@ -1,13 +1,14 @@
 // Reads a probe, or a grid of probes, from a table of RGBA32F texels in the layout of
-// sdk/src/gl/probe/probe_texture.cpp. It holds counts and number of lobes; origin; 1 / spacing; axis and
-// sharpness of each lobe; then the amplitudes of each probe. x varies fastest, then y, then z. If the fourth
-// number of the origin is 1, the amplitudes for gloss follow in the same order.
+// sdk/src/gl/probe/probe_texture.cpp. The table contains, in this order: one texel with the grid's counts and
+// the number of lobes, the origin, 1 / spacing, axis and sharpness of each lobe, and the amplitudes of each
+// probe. Probes are ordered with x varying fastest, then y, then z. If the w of the origin is 1, the
+// amplitudes for gloss follow in the same order.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/lobe.glsl"
 
 uniform NOOK_TEXELS nook_probe_texels;
 
-// The eight probes around a point, and their weights: trilinear, clamped at the grid's ends.
+// The eight probes around a point, and their trilinear weights. Points outside the grid are clamped to it.
 struct NookProbePlace {
   int lobe_count;
   int gloss;       // texels from an amplitude to the one for gloss; 0 if the probes have none
@@ -37,7 +38,7 @@ NookProbePlace nook_probe_place(vec3 position_ws) {
   return place;
 }
 
-// Returns lobe i of the light at a place, with the amplitude that lies `apart` texels from the light's.
+// Returns lobe i at a place. Its amplitude is read `apart` texels after the amplitude of the light.
 NookLobe nook_probe_read_lobe(NookProbePlace place, int i, int apart) {
   vec4 shape = nook_texel(nook_probe_texels, 3 + i);
   vec3 amplitude = vec3(0.0);
@@ -47,12 +48,13 @@ NookLobe nook_probe_read_lobe(NookProbePlace place, int i, int apart) {
   return NookLobe(shape.xyz, shape.w, amplitude, 0.0);
 }
 
-// Returns lobe i of the light, for irradiance.
+// Returns lobe i of the light. Use it for irradiance.
 NookLobe nook_probe_lobe_at(NookProbePlace place, int i) {
   return nook_probe_read_lobe(place, i, 0);
 }
 
-// Returns lobe i for glossy reflection, whose amplitude is never negative if the probe has gloss.
+// Returns lobe i for glossy reflection. If the probe has amplitudes for gloss, the amplitude is never
+// negative.
 NookLobe nook_probe_gloss_lobe_at(NookProbePlace place, int i) {
   return nook_probe_read_lobe(place, i, place.gloss);
 }

@@ -1,25 +1,26 @@
 #ifndef NOOK_PROBE_BASIS_SH
 #define NOOK_PROBE_BASIS_SH
-// Light as real spherical harmonics, orthonormal, without the Condon-Shortley phase, as nook_sg_to_sh and
-// fits of NOOK_PROBE_BASIS_SH write them. The order is 1, then y, z, x, then xy, yz, 3zz - 1, xz, xx - yy.
-// Directions are unit vectors.
+// Light as real orthonormal spherical harmonics without the Condon-Shortley phase. nook_sg_to_sh and fits of
+// NOOK_PROBE_BASIS_SH write the coefficients in this form. The order is 1, then y, z, x, then xy, yz, 3zz - 1,
+// xz, xx - yy. Directions are unit vectors.
 
 #include "shaders/probe/constants.h"
 
-// Bands 0 to 2, nine coefficients. NookHarmonics has the layout of 9 vec4 in std140 and std430.
+// Bands 0 to 2, with nine coefficients. In std140 and std430, NookHarmonics has the layout of 9 vec4.
 struct NookHarmonics {
   vec3 coefficient[9];
 };
 
 // Bands 0 and 1, and the part of band 2 that is symmetric around the axis of band 1's luminance (T. Roughton,
-// P.-P. Sloan, A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3: Quadratic Zonal Harmonics, 2024). They take 15
-// floats in place of 27.
+// P.-P. Sloan, A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3: Quadratic Zonal Harmonics, 2024). This form
+// takes 15 floats instead of 27.
 struct NookZonalHarmonics {
   vec3 coefficient[4];
   vec3 zonal;
 };
 
-// Sums with one factor for each band: 1 for radiance, the clamped cosine's for irradiance.
+// Sums the harmonics in a direction, with one factor for each band. For radiance the factors are 1; for
+// irradiance they are the factors of the clamped cosine.
 vec3 nook_sh_linear(vec3 c0, vec3 c1, vec3 c2, vec3 c3, vec3 s, vec2 factor) {
   return factor.x * NOOK_HARMONICS_0 * c0 + factor.y * NOOK_HARMONICS_1 * (s.y * c1 + s.z * c2 + s.x * c3);
 }
@@ -53,8 +54,8 @@ vec3 nook_zh3_radiance(NookZonalHarmonics light, vec3 s) {
   return nook_zh3_sum(light, s, vec3(1.0));
 }
 
-// Returns the irradiance on a surface, exact for these bands. Opposite a sun they ring below 0; negative
-// values are clamped.
+// Returns the irradiance on a surface, which is exact for these bands. On the side opposite to a sun, ringing
+// makes it negative; negative values are clamped to 0.
 vec3 nook_sh_irradiance(NookHarmonics light, vec3 n) {
   return max(nook_sh_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
 }

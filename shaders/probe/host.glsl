@@ -1,5 +1,4 @@
-// Functions for a host's shader. Directions are unit vectors in world space, like the probe's lobes; colours
-// are linear RGB.
+// Functions for a host's shader. Pass directions as unit vectors in world space. Colours are linear RGB.
 #include "shaders/probe/grid.glsl"
 #include "shaders/probe/harmonics.glsl"
 #include "shaders/probe/irradiance.glsl"
@@ -12,13 +11,15 @@ vec3 nook_probe_radiance(NookProbePlace place, vec3 direction) {
   return sum;
 }
 
-// Returns the irradiance on a surface. Fits of probes may ring slightly below 0; negative values are clamped.
+// Returns the irradiance on a surface. Ringing in a probe's fit may make it slightly negative; negative values
+// are clamped to 0.
 vec3 nook_probe_irradiance(NookProbePlace place, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i) sum += nook_sg_lobe_irradiance(nook_probe_lobe_at(place, i), normal);
   return max(sum, 0.0);
 }
-// These return the same by S. Hill's fit alone, and with the clamped cosine as a lobe.
+// Return the irradiance by cheaper approximations: only by S. Hill's fit, and with a lobe instead of the
+// clamped cosine.
 vec3 nook_probe_irradiance_fitted(NookProbePlace place, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
@@ -32,8 +33,9 @@ vec3 nook_probe_irradiance_inner_product(NookProbePlace place, vec3 normal) {
   return max(sum, 0.0);
 }
 
-// Returns the radiance that a GGX surface reflects to the eye. It reads the amplitudes for gloss, which are not
-// negative. A probe without them reads the light's, and what falls below 0 is clamped.
+// Returns the radiance that a GGX surface reflects to the eye. It uses the amplitudes for gloss, which are
+// never negative. If the probe does not have them, it uses the amplitudes of the light, and clamps negative
+// results to 0.
 vec3 nook_probe_specular_isotropic(NookProbePlace place, NookProbeSurface surface) {
   NookProbeReflection reflection = nook_probe_reflection_isotropic(surface);
   vec3 sum = vec3(0.0);
@@ -49,15 +51,15 @@ vec3 nook_probe_specular_anisotropic(NookProbePlace place, NookProbeSurface surf
   return max(sum, 0.0);
 }
 
-// Returns the radiance that a Lambertian surface reflects. occlusion is AO in all channels, or directional
-// occlusion.
+// Returns the radiance that a Lambertian surface reflects. Pass AO, in all channels of `occlusion`, or
+// directional occlusion.
 vec3 nook_probe_ambient(vec3 albedo, vec3 irradiance, vec3 occlusion) {
   return albedo * irradiance * occlusion * 0.31830989;
 }
 
-// Returns the share of a glossy reflection that AO leaves: AO for rough surfaces, and a smaller effect for
-// sharper reflections (S. Lagarde, C. de Rousiers, Moving Frostbite to PBR, 2014). facing is dot(normal,
-// view).
+// Returns the specular occlusion that belongs to AO: the factor by which to multiply a glossy reflection. For
+// rough surfaces it equals AO; for sharper reflections the effect is smaller (S. Lagarde, C. de Rousiers,
+// Moving Frostbite to PBR, 2014). `facing` is dot(normal, view).
 float nook_probe_specular_occlusion(float ao, float facing, float roughness) {
   return clamp(pow(max(facing, 0.0) + ao, exp2(-16.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);
 }

@@ -1,21 +1,24 @@
 #ifndef NOOK_PROBE_IRRADIANCE
 #define NOOK_PROBE_IRRADIANCE
-// Returns the irradiance of a lobe on a surface with unit normal n, as in sdk/src/core/spherical_gaussian.h.
+// Computes the irradiance of a lobe on a surface with the unit normal n. sdk/src/core/spherical_gaussian.h has
+// the same functions.
 #include "shaders/core/constants.h"
 #include "shaders/probe/lobe.glsl"
 
-// Takes the clamped cosine as a lobe: cheaper, and not 0 behind sharp lights.
+// Approximates the clamped cosine by a lobe. This is cheaper, but the irradiance is not 0 on surfaces that
+// face away from a sharp light.
 vec3 nook_sg_lobe_irradiance_inner_product(NookLobe lobe, vec3 n) {
   return lobe.amplitude * (NOOK_COSINE_LOBE_AMPLITUDE *
                            nook_sg_product_integral(lobe.sharpness, NOOK_COSINE_LOBE_SHARPNESS,
                                                             nook_probe_apart(lobe.axis, n)));
 }
 
-// For a lobe of integral 1, by zonal harmonics of the clamped cosine up to band 4; cosine is dot(axis, n).
+// Returns the irradiance of a lobe with integral 1, by zonal harmonics of the clamped cosine up to band 4.
+// `cosine` is dot(axis, n).
 float nook_probe_unit_irradiance_bands(float sharpness, float cosine) {
   float x = sharpness, x2 = x * x, b1, b2, b4;
   if (x < 0.5) {
-    // Here the recurrence below would lose too many digits.
+    // For such small values, the recurrence below would lose too many digits.
     b1 = x / 3.0 * (1.0 - x2 / 15.0 * (1.0 - x2 * 2.0 / 21.0));
     b2 = x2 / 15.0 * (1.0 - x2 * 2.0 / 21.0);
     b4 = x2 * x2 / 945.0;
@@ -30,7 +33,7 @@ float nook_probe_unit_irradiance_bands(float sharpness, float cosine) {
                  0.09375 * b4 * ((4.375 * c2 - 3.75) * c2 + 0.375), 0.0);
 }
 
-// Uses S. Hill's fit, and the bands below its range.
+// Uses S. Hill's fit, and the function for bands if the sharpness is below the fit's range.
 float nook_probe_unit_irradiance_fitted(float sharpness, float cosine) {
   if (sharpness < NOOK_FITTED_IRRADIANCE_MIN_SHARPNESS) return nook_probe_unit_irradiance_bands(sharpness, cosine);
   float e1 = exp(-sharpness), e2 = e1 * e1, inverse = 1.0 / sharpness;
@@ -48,7 +51,7 @@ vec3 nook_sg_lobe_irradiance_fitted(NookLobe lobe, vec3 n) {
                            nook_probe_unit_irradiance_fitted(lobe.sharpness, dot(lobe.axis, n)));
 }
 
-// Uses the better of both.
+// Uses the more accurate of the two functions above.
 vec3 nook_sg_lobe_irradiance(NookLobe lobe, vec3 n) {
   float cosine = dot(lobe.axis, n);
   float unit = lobe.sharpness <= NOOK_BANDS_MAX_SHARPNESS ? nook_probe_unit_irradiance_bands(lobe.sharpness, cosine)

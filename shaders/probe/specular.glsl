@@ -1,23 +1,26 @@
-// Glossy reflection of a lobe by a GGX surface. The directions that it reflects to the eye are one lobe, or
-// four side by side, as in sdk/src/probe/probe_light.cpp.
+// Glossy reflection of a lobe by a GGX surface. The directions from which the surface reflects light to the
+// eye are approximated by one lobe or by four lobes, which are stored in the components of vec4.
+// sdk/src/probe/probe_light.cpp has the same functions.
 #include "shaders/probe/ggx_reflection.glsl"
 #include "shaders/probe/lobe.glsl"
 
-// A surface seen from one direction can reflect any number of lobes.
+// The reflection of a surface that is seen from one direction. You can evaluate it for any number of light
+// lobes.
 struct NookProbeReflection {
   vec4 x, y, z;     // axes of the four lobes, unit vectors
   vec4 sharpness;
   vec4 amplitude;   // the lobes' integrals sum to the directional albedo: masking and Fresnel
 };
 
-// Returns integrals over the sphere at amplitude 1, as nook_sg_integral does.
+// Returns four integrals at once; see nook_sg_integral.
 vec4 nook_probe_four_integrals(vec4 x) {
   vec4 series = 2.0 - x * (2.0 - x * (1.3333333 - 0.6666667 * x));
   return 6.2831853 * mix((1.0 - exp(-2.0 * x)) / max(x, 1e-6), series, lessThan(x, vec4(0.05)));
 }
 
 NookProbeReflection nook_probe_reflection_of(NookProbeSurface surface, NookProbeSurfaceView v, NookProbeVisibleNormals normals) {
-  // The view among round slopes is `flat_` along the plane of incidence and v.openness up.
+  // In the stretched space, the view has the component `flat_` along the plane of incidence and v.openness
+  // upwards.
   float flat_ = sqrt(max(1.0 - v.openness * v.openness, 0.0)), lifted = 0.5 + 0.5 * v.openness;
   vec4 shrink = min(vec4(1.0), 0.99 / max(sqrt(normals.across * normals.across + normals.along * normals.along), 1e-6));
   vec4 a = shrink * normals.across;
@@ -50,7 +53,7 @@ NookProbeReflection nook_probe_reflection_anisotropic(NookProbeSurface surface) 
   return nook_probe_reflection_of(surface, view, nook_probe_visible_normals(view, surface));
 }
 
-// Returns the reflection of the surface with the geometric mean of both widths, in the first lobe.
+// Returns the reflection of a surface with the geometric mean of both widths. Only the first lobe is used.
 NookProbeReflection nook_probe_reflection_isotropic(NookProbeSurface surface) {
   surface.alpha = vec2(sqrt(surface.alpha.x * surface.alpha.y));
   NookProbeSurfaceView view = nook_probe_view_of(surface);

@@ -1,9 +1,10 @@
-// The coordinate texture of a plane in a host's shader. sdk/src/gl/material/material_textures.cpp writes the sizes
-// before this text, and sdk/src/synthesis/coordinates.cpp has the same function.
+// Reads the coordinate texture of a plane in a host's shader. Before this text,
+// sdk/src/gl/material/material_textures.cpp writes the sizes. sdk/src/synthesis/coordinates.cpp has the same
+// function.
 uniform highp usampler2DArray nook_synthesis_texels;
 
-// Returns the material's texture coordinates at the point uv of the plane, both in tiles of the material.
-// Take the pixel's sides and the mipmap level from uv, whose derivatives have no jumps.
+// Returns the material's texture coordinates at the point uv of the plane. Both are in units of the material's
+// tile. The result has jumps, so compute derivatives and the mipmap level from uv.
 vec2 nook_synthesis_material_uv(vec2 uv) {
   vec2 texels = uv * NOOK_SYNTHESIS_MATERIAL_TEXELS;
   vec2 whole = floor(texels);

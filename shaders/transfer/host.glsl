@@ -1,17 +1,19 @@
-// The functions of a host's shaders for radiance transfer. sdk/src/gl/transfer/ defines NOOK_LIGHT_VEC4_COUNT
-// before this text, unless the material's text already has. A vector has 3 NOOK_LIGHT_VEC4_COUNT texels: its
-// light modes of red, then of green, then of blue.
+// Functions for a host's shaders that use radiance transfer. Before this text, sdk/src/gl/transfer/ defines
+// NOOK_LIGHT_VEC4_COUNT unless the material's text has already defined it. A vector has 3
+// NOOK_LIGHT_VEC4_COUNT texels: the light modes of red, then of green, then of blue.
 #include "shaders/core/texels.glsl"
 
 uniform NOOK_TEXELS nook_transfer_texels;
 
 #ifdef NOOK_TRANSFER_CLUSTERS
-// In the paper's form, the texels are vectors of the light: NOOK_TRANSFER_VERTEX_RANK for each cluster, then
-// NOOK_TRANSFER_BANDS of reflected light. A vertex has NOOK_TRANSFER_VERTEX_TEXELS texels. They hold the
-// number of its cluster, its weights for the cluster's vectors, and its weights for the reflected ones.
+// In the paper's form, the first table contains row vectors that depend on the light:
+// NOOK_TRANSFER_VERTEX_RANK for each cluster, then NOOK_TRANSFER_BANDS for reflected light. The second table
+// has NOOK_TRANSFER_VERTEX_TEXELS texels for each vertex. They contain the index of its cluster, the weights
+// for the cluster's vectors, and the weights for reflected light.
 uniform NOOK_TEXELS nook_transfer_vertices;
 
-// Mixes the vectors of a vertex. Pass gl_VertexID if you draw with the baked order.
+// Computes the vectors of a vertex as a weighted sum. Pass gl_VertexID if you draw the vertices in the baked
+// order.
 void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   int first = vertex * NOOK_TRANSFER_VERTEX_TEXELS;
   vec4 numbers = nook_texel(nook_transfer_vertices, first);
@@ -40,7 +42,7 @@ void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_L
   }
 }
 #else
-// Fetches the vectors of a vertex. Pass gl_VertexID if you draw with the baked order.
+// Fetches the vectors of a vertex. Pass gl_VertexID if you draw the vertices in the baked order.
 void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   int first = vertex * 3 * NOOK_LIGHT_VEC4_COUNT;
   for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i) vectors[i] = nook_texel(nook_transfer_texels, first + i);
@@ -57,8 +59,8 @@ void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_L
 }
 #endif
 
-// Rotates a direction to the tangent space of a pixel, from the interpolated normal and tangent. As in the
-// bake, y points along growing v.
+// Rotates a direction to the tangent space of a pixel, which is given by the interpolated normal and tangent.
+// As in the bake, y points in the direction of increasing v.
 vec3 nook_transfer_tangent_space(vec3 normal, vec4 tangent, vec3 direction) {
   vec3 z = normalize(normal);
   vec3 x = normalize(tangent.xyz - z * dot(z, tangent.xyz));
@@ -66,7 +68,7 @@ vec3 nook_transfer_tangent_space(vec3 normal, vec4 tangent, vec3 direction) {
   return vec3(dot(x, direction), dot(y, direction), dot(z, direction));
 }
 
-// Returns the radiance towards the view from the light modes of nook_material_decode.
+// Returns the radiance towards the view. Pass the light modes that nook_material_decode has computed.
 vec3 nook_transfer_radiance(vec4 modes[NOOK_LIGHT_VEC4_COUNT], vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   vec3 radiance = vec3(0.0);
   for (int a = 0; a < NOOK_LIGHT_VEC4_COUNT; ++a)

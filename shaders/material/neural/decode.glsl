@@ -1,11 +1,11 @@
-// The network of a neural material; sdk/src/material/neural.h has its equations, and neural_tables.cpp the
-// same functions. Matrices are in blocks of 4 x 4; the blocks from four inputs to all units are adjacent. The
-// last inputs of a first layer are the view and 1. The numbers of a pixel are the sums of the first layer
-// without a light, then the view.
+// Evaluates the network of a neural material. neural.h in sdk/src/material has the equations, and
+// neural_tables.cpp has the same functions. Matrices are stored in blocks of 4 x 4. The blocks from four
+// inputs to all units are adjacent. The last inputs of the two layers that read features are the view and 1.
+// The result for a pixel, `modes`, is the sums of the first layer without the light, followed by the view.
 
 vec4 nook_neural_rectified(vec4 sum) { return max(sum, nook_neural_leak * sum); }
 
-// Raises a direction to the lowest sampled one.
+// Raises a direction to the lowest sampled direction if it is lower.
 vec3 nook_neural_raised(vec3 d, float lowest) {
   return d.z >= lowest ? d : vec3(d.xy * (sqrt(1.0 - lowest * lowest) / max(length(d.xy), 1e-6)), lowest);
 }
@@ -37,7 +37,8 @@ vec4 nook_neural_mean(int layer, NookMaterialFetches at) {
   return mean;
 }
 
-// Computes the numbers for the view from the mean features of places. Each place has its own height.
+// Computes `modes` for the view from the mean features of several places. The height is computed separately
+// for each place.
 void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   view = nook_neural_raised(view, nook_neural_lowest_view_z);
   for (int i = 0; i < at.count; ++i) {
@@ -54,20 +55,21 @@ void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[N
   modes[NOOK_NEURAL_UNIT_VEC4S] = vec4(view, 0.0);
 }
 
-// Computes the numbers at the point uv for the view. dx and dy are the pixel's sides, over which it filters
-// the features.
+// Computes `modes` at the point uv for the view. dx and dy are the derivatives of uv along the pixel's sides,
+// over which the function filters the features.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_one_fetch(uv, dx, dy, NOOK_BTF_TEXELS), view, modes);
 }
 
-// The same with several fetches of each feature along the longer side of the pixel, which keeps grazing views
-// sharp.
+// Like nook_material_decode, but with several fetches of each feature along the longer side of the pixel,
+// which keeps grazing views sharp.
 void nook_material_decode_anisotropic(vec2 uv, vec2 dx, vec2 dy, vec3 view, int fetches,
                                       out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_fetches_along(uv, dx, dy, NOOK_BTF_TEXELS, fetches), view, modes);
 }
 
-// Returns the radiance towards the view for an irradiance of 1 on a plane that faces the light.
+// Returns the radiance towards the view for a light that causes an irradiance of 1 on a plane facing the
+// light.
 vec3 nook_material_radiance(vec4 modes[NOOK_LIGHT_VEC4_COUNT], vec3 light) {
   if (light.z <= 0.0) return vec3(0.0);
   float share = light.z < nook_neural_lowest_light_z ? light.z / nook_neural_lowest_light_z : 1.0;

@@ -1,8 +1,8 @@
-// The terms of a tensor for a view. sdk/src/gl/material/material_glsl.cpp writes this text for the BTF and for the VOTF, with "btf" or
-// "votf" in place of "tensor" and "BTF" or "VOTF" in place of "TENSOR". One function cannot serve both, because some materials
-// have no membership texture.
+// Finds the terms of a tensor for a view. sdk/src/gl/material/material_glsl.cpp writes this text once for the
+// BTF and once for the VOTF. It replaces "tensor" by "btf" or "votf", and "TENSOR" by "BTF" or "VOTF". Shared
+// functions are not possible, because some materials have no membership texture.
 
-// Returns the mean over places of four modes of a cluster.
+// Returns four modes of a cluster, averaged over several places.
 vec4 nook_tensor_mean(int cluster, int mode, NookMaterialFetches at) {
   vec4 mean = nook_tensor_mode(cluster, mode, at.place[0], at.level);
   for (int i = 1; i < at.count; ++i)
@@ -10,7 +10,8 @@ vec4 nook_tensor_mean(int cluster, int mode, NookMaterialFetches at) {
   return mean;
 }
 
-// Finds the terms of a view. place is nook_parabolic_place of the view, and cell contains place.
+// Finds the terms of a view. `place` is the nook_parabolic_place of the view, and `cell` is the cell that
+// contains it.
 NookMaterialTerms nook_tensor_terms(vec2 place, ivec2 cell) {
 #if NOOK_TENSOR_BLENDED
   uvec4 last = texelFetch(nook_tensor_membership, ivec3(cell, NOOK_TENSOR_TERMS / 4), 0);
@@ -20,7 +21,8 @@ NookMaterialTerms nook_tensor_terms(vec2 place, ivec2 cell) {
 #endif
 }
 
-// Returns the cluster of term k. Call it for each term in turn, from 0 on: a fetch has the clusters of four terms.
+// Returns the cluster of term k. Call it for all terms in ascending order, because it fetches the clusters of
+// four terms at once and keeps them in `terms`.
 int nook_tensor_cluster(inout NookMaterialTerms terms, int k) {
 #if NOOK_TENSOR_CLUSTERS > 1
 #if NOOK_TENSOR_BLENDED

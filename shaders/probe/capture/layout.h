@@ -1,23 +1,23 @@
-// The layout of sums over a cube map in the table of texels, which the shaders of captures share with
+// The layout of the sums over a cube map in the table of texels. The shaders of captures share it with
 // sdk/src/gl/probe/capture.h. C++ and GLSL both include this file.
 #ifndef NOOK_PROBE_CAPTURE_LAYOUT_H
 #define NOOK_PROBE_CAPTURE_LAYOUT_H
 
-// One draw gathers at most 12 vec4, because transform feedback captures 64 numbers of a vertex. A group is 12
-// lobes, or the harmonics of bands 0 to 2 and what suns take away.
+// One draw computes a group of at most 12 vec4, because transform feedback is limited to 64 components per
+// vertex. A group is either 12 lobes, or the harmonics of bands 0 to 2 and the sums for suns.
 #define NOOK_CAPTURE_GROUP 12
-// After nine harmonics, their group has the suns' irradiance, their direction times luminance, and their
-// solid angle.
+// In the group of harmonics, the nine harmonics are followed by three sums for suns: their irradiance, their
+// direction times luminance, and their solid angle.
 #define NOOK_CAPTURE_SUN_IRRADIANCE 9
 #define NOOK_CAPTURE_SUN_DIRECTION 10
 #define NOOK_CAPTURE_SUN_ANGLE 11
 
-// The kinds of sums over texels; luminance has a single sum.
+// The kinds of sums over texels. Luminance is a single sum.
 #define NOOK_CAPTURE_LOBES 0
 #define NOOK_CAPTURE_BANDS 1
 #define NOOK_CAPTURE_LUMINANCE 2
 
-// The forms of a result: amplitudes of lobes, or texels of a grid of harmonics or of ZH3.
+// A result is either amplitudes of lobes, or texels of a grid with harmonics or with ZH3.
 #define NOOK_CAPTURE_AMPLITUDES 0
 #define NOOK_CAPTURE_HARMONICS 1
 #define NOOK_CAPTURE_ZONAL 2

@@ -1,5 +1,5 @@
-// Computes the mean over a cube map from the sums over its rows, and adds it to the average over maps. There
-// is one point for each sum.
+// Adds up the sums over the rows of a cube map, and updates the average over maps with the result. One point
+// is drawn for each sum.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/capture/layout.h"
 
@@ -14,7 +14,7 @@ void main() {
   int texel = nook_rows.x + gl_VertexID;
   for (int row = 0; row < nook_rows.z; ++row, texel += nook_rows.y) sum += nook_texel(nook_table, texel);
   vec4 before = nook_texel(nook_table, nook_rows.w + gl_VertexID);
-  // A map without a finite texel leaves the average unchanged.
+  // A map in which no texel is finite does not change the average.
   float share = sum.w > 0.0 ? nook_scale_share.y : 0.0;
   nook_mean.xyz = mix(before.xyz, sum.xyz * (nook_scale_share.x / max(sum.w, 1e-30)), share);
   nook_mean.w = mix(before.w, sum.w, nook_scale_share.y);

@@ -1,5 +1,5 @@
-// Sums light times functions times solid angle over one row of a face. There is one point for each row;
-// transform feedback writes the sums. w of each is the solid angle of the texels that count.
+// Sums light * function * solid angle over one row of a face. One point is drawn for each row, and transform
+// feedback writes the sums. The w of each sum is the total solid angle of the texels that were used.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/capture/cube.glsl"
 #include "shaders/probe/capture/layout.h"

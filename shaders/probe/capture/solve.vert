@@ -1,5 +1,5 @@
-// Computes a probe's numbers from its sums, as texels of the texture that hosts' shaders read. There is one
-// point for each texel.
+// Computes the coefficients of a probe from its sums. The output is texels of the texture that the host's
+// shaders read. One point is drawn for each texel.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/capture/layout.h"
 #include "shaders/probe/constants.h"
@@ -10,7 +10,7 @@ uniform ivec4 nook_sums_map;  // the texel of the first sum, groups of 12 sums, 
 out vec4 nook_number;
 
 #if NOOK_CAPTURE_FORM == NOOK_CAPTURE_AMPLITUDES
-// Multiplies a row of the map by the sums; a texel of the map has four factors.
+// Multiplies a row of the solution matrix by the sums. A texel of the matrix contains four factors.
 vec4 nook_answer() {
   vec3 amplitude = vec3(0.0);
   int quads = 3 * nook_sums_map.y, row = nook_sums_map.z + gl_VertexID * quads;
@@ -23,7 +23,7 @@ vec4 nook_answer() {
   return vec4(amplitude, 0.0);
 }
 #else
-// The harmonics are the last group.
+// Returns sum i of the last group, which contains the harmonics.
 vec3 nook_harmonic(int i) {
   return nook_texel(nook_table, nook_sums_map.x + NOOK_CAPTURE_GROUP * (nook_sums_map.y - 1) + i).xyz;
 }
@@ -43,7 +43,7 @@ vec3 nook_zonal() {
 }
 #endif
 
-// Colours follow one another as a row of numbers, four to a texel.
+// Colours are stored one after another as a sequence of values, four per texel.
 float nook_number_at(int at) {
   int colour = at / 3, channel = at - 3 * colour;
 #if NOOK_CAPTURE_FORM == NOOK_CAPTURE_ZONAL
@@ -52,7 +52,7 @@ float nook_number_at(int at) {
   return colour < 9 ? nook_harmonic(colour)[channel] : 0.0;
 }
 
-// Half floats end at 65504.
+// The result is clamped to 65504, the maximum of a half float.
 vec4 nook_answer() {
   int first = 4 * gl_VertexID;
   return clamp(vec4(nook_number_at(first), nook_number_at(first + 1), nook_number_at(first + 2), nook_number_at(first + 3)),

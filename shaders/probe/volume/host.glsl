@@ -1,7 +1,7 @@
-// A grid of probes in one 3D texture of half floats, in the layout of sdk/src/gl/probe/grid_volume.cpp.
-// Layers of texels, each as large as the grid, lie one behind the other along z. The first NOOK_GRID_TEXELS
-// layers hold a probe's coefficients as a row of numbers. With walls, the next three hold a cell's planes,
-// and the last two the masks of its sides.
+// Reads a grid of probes from a 3D texture of half floats, in the layout of sdk/src/gl/probe/grid_volume.cpp.
+// Layers, each as large as the grid, are stacked along z. The first NOOK_GRID_TEXELS layers contain the
+// coefficients of each probe, four values per texel. If there are walls, the next three layers contain the
+// planes of each cell, and the last two layers contain the masks of the cell's sides.
 #include "shaders/probe/harmonics.glsl"
 
 #if NOOK_GRID_TEXELS == NOOK_GRID_HARMONICS_TEXELS
@@ -11,11 +11,11 @@
 #endif
 
 uniform highp sampler3D nook_grid_texels;
-// The first probe's position and the bias of walls, in metres; 1 / spacing; numbers of probes; 1 / the
-// texture's size in texels.
+// Four rows: the first probe's position and the bias of walls, in metres; 1 / spacing; the number of probes
+// along each axis; and 1 / the texture's size in texels.
 uniform highp vec4 nook_grid_frame[4];
 
-// Coefficients as they lie in texels.
+// Coefficients of a probe in the order of its texels.
 struct NookGridTexels {
   vec4 texel[NOOK_GRID_TEXELS];
 };
@@ -38,7 +38,8 @@ NookGridLight nook_grid_unpacked(NookGridTexels t) {
   return light;
 }
 
-// Interpolates trilinearly with the texture unit. at: in spacings from the first probe.
+// Interpolates trilinearly with the texture unit. `at` is the position in units of the spacing, from the first
+// probe.
 NookGridTexels nook_grid_filtered(vec3 at) {
   vec3 uvw = (clamp(at, vec3(0.0), nook_grid_frame[2].xyz - 1.0) + 0.5) * nook_grid_frame[3].xyz;
   float layer = nook_grid_frame[2].z * nook_grid_frame[3].z;
@@ -49,7 +50,8 @@ NookGridTexels nook_grid_filtered(vec3 at) {
 }
 
 #ifdef NOOK_GRID_WALLS
-// Interpolates the probes of one cell that a mask selects. in_cell: in spacings from the cell's first probe.
+// Interpolates only those probes of a cell that the mask selects. `in_cell` is the position in units of the
+// spacing, from the cell's first probe.
 NookGridTexels nook_grid_masked(ivec3 cell, vec3 in_cell, int mask) {
   ivec3 last = ivec3(nook_grid_frame[2].xyz) - 1;
   vec3 high = clamp(in_cell, vec3(NOOK_GRID_LEAST_SHARE), vec3(1.0 - NOOK_GRID_LEAST_SHARE)), low = 1.0 - high;
@@ -72,8 +74,8 @@ NookGridTexels nook_grid_masked(ivec3 cell, vec3 in_cell, int mask) {
 }
 #endif
 
-// Returns the light at a place in front of a surface, for nook_sh_irradiance, or nook_zh3_irradiance with
-// ZH3. Walls need the surface's normal.
+// Returns the light at a point of a surface. Pass the result to nook_sh_irradiance, or with ZH3 to
+// nook_zh3_irradiance. The normal is used only if there are walls.
 NookGridLight nook_grid_light(vec3 position_ws, vec3 normal) {
 #ifdef NOOK_GRID_WALLS
   position_ws += normal * nook_grid_frame[0].w;
