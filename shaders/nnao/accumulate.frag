@@ -6,20 +6,19 @@
 #include "shaders/nnao/host_images.glsl"
 
 uniform sampler2D nook_ao;              // AO and edges of this frame
-uniform sampler2D nook_history;         // AO (see below), edges, the rest of AO, frames in the mean
-uniform usampler2D nook_history_depth;  // as nook_depth, of the earlier frame
-uniform NOOK_HOST_IMAGE nook_motion;          // the host's
+uniform sampler2D nook_history;         // AO (see nook_packed), edges, the remainder of AO, number of frames in the mean
+uniform usampler2D nook_history_depth;  // like nook_depth, for the earlier frame
+uniform NOOK_HOST_IMAGE nook_motion;          // the host's motion vectors
 uniform vec4 nook_earlier[NOOK_EARLIER_VEC4S];
 
 out vec4 nook_out;
 
-#define nook_earlier_rays nook_earlier[NOOK_EARLIER_RAYS]   // as nook_surface_rays, for the earlier frame
-#define nook_earlier_last nook_earlier[NOOK_EARLIER_SIZE].xy  // the texel of its upper right corner
-#define nook_max_frames nook_earlier[NOOK_EARLIER_SIZE].z    // of the mean; 1: the history is ignored
+#define nook_earlier_rays nook_earlier[NOOK_EARLIER_RAYS]   // like nook_surface_rays, for the earlier frame
+#define nook_earlier_last nook_earlier[NOOK_EARLIER_SIZE].xy  // texel of the earlier surface's upper right corner
+#define nook_max_frames nook_earlier[NOOK_EARLIER_SIZE].z    // maximum number of frames in the mean; 1: the history is ignored
 #define nook_has_motion (nook_earlier[NOOK_EARLIER_SIZE].w != 0.0)
-#define nook_motion_scale nook_earlier[NOOK_EARLIER_MOTION].xy  // texels of the surface per unit of the
-                                                                // texture
-#define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // how far the taps' noise takes AO from its mean
+#define nook_motion_scale nook_earlier[NOOK_EARLIER_MOTION].xy  // texels of the surface per unit of the motion texture
+#define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // how far the noise of the taps moves AO from its mean
 
 // Splits AO in [0, 1] into the nearest 255th, which the filter reads, and the remainder. With only 8 bits, a
 // mean over many frames would stop changing.

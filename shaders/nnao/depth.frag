@@ -9,7 +9,7 @@ uniform NOOK_HOST_IMAGE nook_layer;
 #endif
 
 #ifdef NOOK_NORMAL_SAMPLES
-out uvec2 nook_out;  // with the number of the sample, whose normal the next stage reads
+out uvec2 nook_out;  // depth and the index of its sample; the next stage reads the normal of this sample
 #else
 out uint nook_out;
 #endif

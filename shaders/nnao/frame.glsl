@@ -4,43 +4,39 @@
 #include "shaders/nnao/layout.h"
 uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 
-#define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset, from pixels of the screen
-#define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // from texels of the surface
-#define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y s) / (z + w s), s: the stored value with nook_stored_slope, or as nook_log_rate says
+#define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset of the rays through pixels of the screen
+#define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // the same for texels of the surface
+#define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y s) / (z + w s); s is the stored value plus nook_stored_slope, or see nook_log_rate
 #define nook_far_stored nook_frame[NOOK_FRAME_FAR].x  // the stored value of the far plane
 #define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values grow with the distance; -1: they fall
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
 #define nook_writes_bent_normals (nook_frame[NOOK_FRAME_FAR].w != 0.0)
 #define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the screen's extent at a depth is x depth + y: perspective (1, 0), orthographic (0, 1)
-#define nook_edges_per_metre nook_frame[NOOK_FRAME_SPREAD].z  // the inverse of the depth change that makes an
-                                                              // edge
-#define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // the same for radii in pixels, relative to the extent
-#define nook_array_layer int(nook_frame[NOOK_FRAME_INPUT].z)  // of the host's texture arrays
-#define nook_log_rate nook_frame[NOOK_FRAME_INPUT].x  // not 0: depth is logarithmic, s = exp2(nook_log_rate stored)
-#define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // along y, values of AO that differ by twice its inverse are not averaged
+#define nook_edges_per_metre nook_frame[NOOK_FRAME_SPREAD].z  // 1 / the change of depth that is treated as an edge
+#define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // the same, relative to the extent, for radii in pixels
+#define nook_array_layer int(nook_frame[NOOK_FRAME_INPUT].z)  // layer of the host's texture arrays
+#define nook_log_rate nook_frame[NOOK_FRAME_INPUT].x  // if not 0, depth is logarithmic and s = exp2(nook_log_rate * stored)
+#define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // for the filter along y: AO values that differ by more than 2 / sharpness are not averaged
 #define nook_radius nook_frame[NOOK_FRAME_RADIUS].x         // metres
 #define nook_max_radius_px nook_frame[NOOK_FRAME_RADIUS].y  // texels of the surface
 #define nook_min_radius_px nook_frame[NOOK_FRAME_FADE].x    // texels of the surface, at most nook_max_radius_px
-#define nook_fade nook_frame[NOOK_FRAME_FADE].yz            // the remaining share of AO is x depth + y,
-                                                            // clamped
+#define nook_fade nook_frame[NOOK_FRAME_FADE].yz            // (1 - AO) is multiplied by x * depth + y, clamped
 #define nook_intensity nook_frame[NOOK_FRAME_RADIUS].z
 #define nook_power nook_frame[NOOK_FRAME_RADIUS].w
 #define nook_normal_scale nook_frame[NOOK_FRAME_NORMAL].x
 #define nook_normal_bias nook_frame[NOOK_FRAME_NORMAL].y
-#define nook_shortest_normal nook_frame[NOOK_FRAME_NORMAL].z  // shorter texels are not normals; 0: there are
-                                                              // none
+#define nook_shortest_normal nook_frame[NOOK_FRAME_NORMAL].z  // shorter texels are not normals; 0: the host has no normals
 #define nook_has_normals (nook_shortest_normal != 0.0)
 #define nook_layer_mode int(nook_frame[NOOK_FRAME_NORMAL].w)
-#define nook_origin ivec2(nook_frame[NOOK_FRAME_VIEWPORT].xy)  // of the viewport in the host's textures
+#define nook_origin ivec2(nook_frame[NOOK_FRAME_VIEWPORT].xy)  // lower left pixel of the viewport in the host's textures
 #define nook_screen_size ivec2(nook_frame[NOOK_FRAME_VIEWPORT].zw)
-#define nook_surface_last nook_frame[NOOK_FRAME_SURFACE].xy  // the texel of the upper right corner
+#define nook_surface_last nook_frame[NOOK_FRAME_SURFACE].xy  // texel of the upper right corner
 #define nook_surface_size (ivec2(nook_surface_last) + 1)
-#define nook_stored_slope nook_frame[NOOK_FRAME_SURFACE].zw  // what an oblique projection adds to stored depth for each pixel
+#define nook_stored_slope nook_frame[NOOK_FRAME_SURFACE].zw  // added to stored depth per pixel along x and y; 0 unless the projection is oblique
 #define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
-#define nook_noise_shift vec2(nook_frame[NOOK_FRAME_NORMAL_MATRIX].w, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].w)  // of this frame
-#define nook_own_weight nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].w  // of a texel in its filtered value: 1, or so much that the filter leaves
-                                                                    // every texel as it is
+#define nook_noise_shift vec2(nook_frame[NOOK_FRAME_NORMAL_MATRIX].w, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].w)  // shift of the noise in this frame
+#define nook_own_weight nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].w  // weight of the centre texel in the filter: 1, or a value so large that the filter has no effect
 
 // The depth where there is no surface, which is the sky or the far plane. Its square does not overflow a
 // float.

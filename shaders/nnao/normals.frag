@@ -14,7 +14,7 @@ void main() {
   vec2 normal = vec2(0.5);
   if (depth != nook_no_surface) normal = nook_octahedral(nook_texel_normal(texel, nook_neighbours_of(texel, depth)));
 #if defined(GL_ES)
-  nook_out = uvec2(normal * 65535.0 + 0.5);  // OpenGL ES cannot draw into normalised 16-bit formats
+  nook_out = uvec2(normal * 65535.0 + 0.5);  // integers, because OpenGL ES cannot draw into normalised 16-bit formats
 #else
   nook_out = normal;
 #endif

@@ -2,7 +2,7 @@
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
 #include "shaders/core/texels.glsl"
 #include "shaders/nnao/surface_normal.glsl"
-uniform NOOK_TEXELS nook_filters;  // each cell of the grid has four texels, one for each input, of four units
+uniform NOOK_TEXELS nook_filters;  // four texels for each cell of the grid: one for each input, with the weights of four units
 uniform vec4 nook_network[NOOK_PAPER_VEC4S];  // the other layers, in the order of network.h
 // The number of groups of NOOK_STEPS taps. It is a uniform instead of a constant, because compilers would
 // unroll the loop into more code than fits into the instruction cache.

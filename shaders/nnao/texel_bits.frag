@@ -1,7 +1,7 @@
 // Copies texels as the bits of their floats. Every OpenGL can read back these integers exactly, while OpenGL
 // ES can read back neither depth nor floats.
 uniform sampler2D nook_image;
-uniform ivec2 nook_first;  // the texel for the lower left pixel of the target
+uniform ivec2 nook_first;  // the texel that is copied to the lower left pixel of the target
 
 out uvec4 nook_out;
 
