@@ -1,6 +1,6 @@
 // Materials as .nook files. Version 4 of the kind "MATL" has the sections
-//   HEAD  u16 lights, views; u8 form of visibility, f32 threshold and weight of its mapping; u8 form of
-//         numbers, 8 or 16 (version 1: always 16)
+//   HEAD  u16 lights, views; u8 form of visibility, f32 threshold and weight of its mapping; u8 number
+//         format `bits`, 8 or 16 (not in version 1, which always uses 16)
 //   DIRS  lights, then views, three 32-bit floats each
 //   LGHT  the light basis, packed
 //   BTF_  the BTF: u16 width, height, rank_light, rank_view, rank_x, rank_y, clusters, u8 mixture; packed
@@ -9,7 +9,7 @@
 //   BMAP  the BTF's resampled view map (optional): u16 side; its rows
 //   VMAP  the VOTF's resampled view map (optional)
 //   RELF  the relief (optional, from version 3 on): u8 steps, f32 low, high, max_slope, u8 levels
-//   NEUR  a neural material (of version 4), which has neither LGHT nor BTF_, BMAP and RELF:
+//   NEUR  a neural material (from version 4 on), which has no LGHT, BTF_, BMAP and RELF:
 //         u16 width, height; u8 channels, units, layers, offset channels, offset units;
 //         the blocks of its features and its weights, as in neural.h
 //   RECP  recipe

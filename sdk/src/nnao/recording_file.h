@@ -1,15 +1,15 @@
 // Recorded frames as .nook files. Version 3 of the kind "FRAM" has the sections
 //   HEAD  u32: library version, width, height
 //         u8: depth kind, clip, layer, view; f32: sky_depth, normal_scale, normal_bias, normal_matrix 9,
-//         projection 16, radius, max_radius_px, intensity, power; u8: radius kind, which version 1 has not;
-//         f32: min_radius_px, fade_begin, fade_end, which version 2 lacks
+//         projection 16, radius, max_radius_px, intensity, power; u8: radius kind (from version 2 on);
+//         f32: min_radius_px, fade_begin, fade_end (from version 3 on)
 //   PASS  u32 taps; u8: half_resolution, blur, path; f32 blur_sharpness
-//   DPTH  depth, one number for each pixel; u8 bits, u8 normalisation, then the numbers (exact_packing.h)
-//   NORM  normals, three for each pixel, in the same way; only if there are any
-//   LAYR  the layer, two for each pixel; only if there is one
-//   AOCC  AO, one for each pixel; only if it was made
-//   NETW  the network's file; may be empty
-//   TEXT  vendor, renderer, driver_version, note: each u32 bytes, then UTF-8
+//   DPTH  depth, one value for each pixel, as write_exact of exact_packing.h stores them
+//   NORM  normals, three values for each pixel, stored like DPTH; only if the frame has normals
+//   LAYR  the host's layer, two values for each pixel, stored like DPTH; only if there is one
+//   AOCC  AO, one value for each pixel, stored like DPTH; only if it was computed
+//   NETW  the file of the network; may be empty
+//   TEXT  vendor, renderer, driver_version, note: for each, u32 number of bytes, then UTF-8
 #pragma once
 
 #include <cstddef>

@@ -31,12 +31,12 @@ Vec3 from_rgb9e5(std::uint32_t bits);
 // Probes as .nook files. The kind "PROB" has the sections
 //   HEAD u8 kind, u8 domain, u8 ambient, u8 order, u8 functions, u8 packing;
 //        f32: up 3; u32: counts 3; f32: origin_ws 3, spacing_ws 3
-//   LOBE Gaussians only: for each function axis 3 f32 and sharpness f32
+//   LOBE Gaussians only: for each function, axis 3 f32 and sharpness f32
 //   COEF coefficients, probe by probe, packed as HEAD says: 3 f32, 3 half floats, or one RGB9E5 word
-//   GLOS optional, only of Gaussians: amplitudes for glossy reflection, as COEF has them; all readers of
-//        older versions skip it
+//   GLOS optional, only for Gaussians: amplitudes for glossy reflection, packed like COEF; older libraries
+//        skip it
 //   RECP recipe, JSON; may be empty
-//   WALL version 2, only of grids with walls: f32 bias; for each cell, as probe.h has them, its planes, 4 half
+//   WALL version 2, only if the grid has walls: f32 bias; for each cell (see probe.h), its planes, 4 half
 //        floats each, and a byte for each side
 // A grid without walls is written as version 1, which older libraries can read.
 

@@ -1,15 +1,16 @@
 // Baked transfer as .nook files. Version 1 of the kind "TRAN" has the sections
 //   HEAD  u8 form, 0: separated, 1: paper; u8 bounces, 0 to 2; u16 lobes; u32 vertices;
 //         u64 hashes of positions, normals, tangents and texture coordinates
-//   CODE  vertices x lobes, 2 bits each, low bits first, every vertex from a whole byte on: 0 is the share 0,
-//         1 is 255, 2 is a byte of SHAR; 3 is refused
+//   CODE  vertices x lobes codes of 2 bits, low bits first; every vertex starts at a whole byte. Code 0 means
+//         the share 0, 1 the share 255, 2 the next byte of SHAR; 3 is invalid
 //   SHAR  the shares of code 2, u8
 //   FRAM  vertices x 3 u16, see tangent_frame.h
-// and in the paper's form, in place of CODE, SHAR and FRAM,
+// The paper's form has these sections instead of CODE, SHAR and FRAM:
 //   PAPR  u16 light modes, clusters, lobe rank, vertex rank; u64 hash of the material's light; f32 scale
 //   LOBE, CORE, CLUS, COEF  the arrays of paper.h: half floats, and u8 for clusters
-//   INDI  vertices x bounces x 9 half floats of reflected light; only if there are bounces
-//   HOLE  u64 hash of the VOTF through whose holes light fell; only if it did
+// Both forms have the sections
+//   INDI  vertices x bounces x 9 half floats of reflected light; only if bounces is above 0
+//   HOLE  u64 hash of the VOTF with whose holes the transfer was baked; only if there was one
 //   RECP  recipe
 #pragma once
 
