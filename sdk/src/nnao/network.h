@@ -19,8 +19,8 @@ enum class NetworkForm : std::uint32_t {
   horizon = 1,  // one layer along each direction, then one over the directions
 };
 
-// A layer whose activation is equation 1 of the paper, with one pair of slopes for each unit: PReLU(x) =
-// positive_slope max(x, 0) + negative_slope min(x, 0).
+// A layer with the activation PReLU(x) = positive_slope max(x, 0) + negative_slope min(x, 0), equation 1 of
+// the paper. Each unit has its own pair of slopes.
 template <int inputs, int units>
 struct Dense {
   std::array<float, std::size_t(inputs) * units> weights{};  // weights[input * units + unit]

@@ -55,8 +55,8 @@ struct Transfer {
   std::uint32_t bounces = 0;    // number of reflections, up to max_bounces
   // vertices x bounces x band_count half floats m_(b,k), in the order of distant_light.h.
   Vector<std::uint16_t> indirect;
-  // The hash of the VOTF with whose holes the transfer was baked; see material/tables.h. 0 if surfaces have
-  // no holes.
+  // The hash of the VOTF that defined the holes of surfaces in the bake; see material/tables.h. It is 0 if
+  // surfaces had no holes.
   std::uint64_t votf_hash = 0;
   String recipe;  // settings of the bake, JSON; the runtime does not read it
 

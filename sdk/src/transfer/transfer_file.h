@@ -10,7 +10,7 @@
 //   LOBE, CORE, CLUS, COEF  the arrays of paper.h: half floats, and u8 for clusters
 // Both forms have the sections
 //   INDI  vertices x bounces x 9 half floats of reflected light; only if bounces is above 0
-//   HOLE  u64 hash of the VOTF with whose holes the transfer was baked; only if there was one
+//   HOLE  u64 hash of the VOTF that defined the holes of surfaces in the bake; only if there was one
 //   RECP  recipe
 #pragma once
 
