@@ -12,8 +12,8 @@
 //   colour    u32 largest number of components; i32 model; f32 mean of 3; f32 matrix of 3 x 3, rows
 //   channels  u8 bytes of a number (2, 4, 8: IEEE floats); u32 components, u32 rows, u32 columns; the
 //             singular values; rows x components: U; columns x components: V times the singular values
-// Either rows are pairs of light and view, light + lights * view, and columns texels, x + width * y with y
-// from the top, or rows are texels and columns pairs.
+// There are two layouts. Either rows are pairs of light and view (light + lights * view) and columns are
+// texels (x + width * y, with y from the top), or rows are texels and columns are pairs.
 #pragma once
 
 #include <cstdint>
@@ -23,13 +23,13 @@
 
 namespace nook::bake::material {
 
-// If `texels` is above 0, reads the square of this side in the middle. If the data lack the cosine of the
-// light, it is multiplied in. The result has no VOTF.
+// If `texels` is above 0, reads only the square with this side in the middle. If the data do not include the
+// cosine of the light, multiplies them by it. The result has no VOTF.
 //
-// Throws Failure(BAD_FILE) if the signature is another one, the layout has a fault, there are not three
-// channels, or a number is not finite. Throws it also if the BTF exceeds `most_bytes`, lights differ between
-// views, or the colour model has no public definition. Throws Failure(INVALID_ARGUMENT) if `texels` exceeds
-// the file's.
+// Throws Failure(BAD_FILE) if the signature is unknown, the layout is invalid, there are not three channels,
+// or a number is not finite. Also throws it if the BTF exceeds `most_bytes`, lights differ between views, or
+// the colour model has no public definition. Throws Failure(INVALID_ARGUMENT) if `texels` exceeds the texels
+// of the file.
 RawMaterial read_btf_file(std::span<const std::byte> bytes, std::uint32_t texels,
                           std::size_t most_bytes = std::size_t{6} << 30);
 

@@ -1,4 +1,5 @@
-// Runs a neural tile forwards and backwards, on a few texels of views with the same number of lights each.
+// Runs a neural tile forwards and backwards on some texels in views. Each position has the same number of
+// lights.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,19 +34,20 @@ struct NeuralPass {
   std::vector<Tap> taps;
   Columns offset_input, offset_units, heights, input, at_position, light_input, out;
   std::vector<Columns> units;  // of each hidden layer
-  // Gradients of the networks' numbers, and of features: channel x position.
+  // Gradients of the networks' weights, and of the features (channel x position).
   std::vector<float> weights;
   Columns features, offset_features;
 
-  // Sets only the heights of the positions.
+  // Computes only the heights of the positions.
   void find_heights(const NeuralNumbers& numbers);
-  // Sets out to the RGB of the samples.
+  // Writes the RGB of the samples to `out`.
   void forward(const NeuralNumbers& numbers);
-  // Goes back from the gradient that the caller puts in `out`.
+  // Runs backwards from a gradient. Before the call, write the gradient to `out`.
   void backward(const NeuralNumbers& numbers);
-  // Goes back from the gradient that the caller puts in `heights`. Adds to weights, and sets offset_features.
+  // Runs backwards from a gradient of the heights. Before the call, write it to `heights`. Adds the gradient
+  // to `weights`, and overwrites `offset_features`.
   void heights_backward(const NeuralNumbers& numbers);
-  // Adds the gradients of features where they were read.
+  // Adds the gradients of features to the texels where the features were read.
   void scatter(const NeuralShape& shape, std::span<float> feature_gradient,
                std::span<float> offset_gradient) const;
 };

@@ -13,12 +13,12 @@
 
 namespace nook::bake::material {
 
-// Sizes of a neural tile. Its features may depend on the view; features in a file may not.
+// Sizes of a neural tile. During training, features may depend on the view. In a file, they cannot.
 struct NeuralShape : nook::material::NeuralShape {
-  // Nodes on each side of a square map of views. Features are blended between them; 1: they do not depend on
-  // the view.
+  // Number of nodes along each side of a square map of views. Features are interpolated between nodes. If it
+  // is 1, features do not depend on the view.
   std::uint32_t view_side = 1;
-  float widest_view_z = 0;  // at the rim of the map of views
+  float widest_view_z = 0;  // z of the views at the rim of the map of views
 
   std::size_t nodes() const { return std::size_t(view_side) * view_side; }
 };
@@ -34,19 +34,19 @@ struct NeuralTile {
   std::size_t bytes() const;
 };
 
-// Blocks take eight bytes and numbers take two.
+// Returns the size in bytes: blocks take eight bytes, weights take two.
 std::size_t neural_bytes(const NeuralShape& shape);
 
-// Returns the features as decoded after encoding. Each block of 4 x 4 texels of a channel has two ends and
-// eight levels between them, all multiples of 1 / 127.
+// Encodes and decodes the features. Each block of 4 x 4 texels of a channel has two endpoints and eight
+// levels from one to the other, which are multiples of 1 / 127.
 void round_to_blocks(const NeuralShape& shape, std::uint32_t channels, std::span<const float> features,
                      std::span<float> rounded);
 
-// Returns the radiance of the plane's texels in a view for each light, 3 lights x texels, as in
+// Returns the radiance of the plane's texels in one view for each light, 3 lights x texels, in the order of
 // RawMaterial::btf.
 tensor::Matrix draw_neural_tile(const NeuralTile& tile, Vec3 view, std::span<const Vec3> lights);
 
-// Returns the tile as stored in a file. Channels and units become multiples of 4. Throws
+// Converts the tile to the form that a file stores. Pads channels and units to multiples of 4. Throws
 // Failure(NOOK_ERROR_INVALID_ARGUMENT) if features depend on the view.
 nook::material::Neural encoded(const NeuralTile& tile);
 

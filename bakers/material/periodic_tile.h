@@ -13,7 +13,7 @@ namespace nook::bake::material {
 
 // Reads images of a repeating tile with linear interpolation, texel x * height + y as in RawMaterial.
 
-// The four texels around a point and their shares.
+// The four texels around a point and their interpolation weights.
 struct Taps {
   std::size_t texel[4];
   float share[4];
@@ -46,17 +46,17 @@ Value mean_of(const Taps& taps, const Value* map) {
 
 // Averages an image over the points of another grid on a repeating tile.
 
-// Takes rows one by one, so that no second image is held. A point of the grid, ((x + 0.5) / side, (y + 0.5) /
-// side), receives the mean of the image under a tent as wide as two points. If the image is coarser than the
-// grid, the tent is as wide as two texels, which is bilinear interpolation.
+// Rows are passed one by one, so that the filter need not store the whole image. A grid point ((x + 0.5) /
+// side, (y + 0.5) / side) gets the mean of the image under a tent filter with the width of two grid points.
+// If the image is coarser than the grid, the tent is as wide as two texels, which is bilinear interpolation.
 class TileFilter {
  public:
   TileFilter(std::uint32_t width, std::uint32_t height, std::uint32_t side, std::uint32_t channels);
 
-  // row: width x channels, for texels whose centres lie at y = (index + 0.5) / height.
+  // `row` has width x channels values. The texel centres of the row are at y = (index + 0.5) / height.
   void add_row(std::uint32_t index, std::span<const float> row);
 
-  // Call it after all rows were added. Returns y * side + x, channels.
+  // Call this after all rows were added. Returns the channels of point y * side + x, one point after another.
   std::vector<float> result() const;
 
  private:
@@ -64,7 +64,7 @@ class TileFilter {
     std::uint32_t point;
     double weight;
   };
-  // Returns for each texel along an axis the points that it counts for.
+  // For each texel along an axis, returns the points that it contributes to.
   static std::vector<std::vector<Share>> shares_of(std::uint32_t size, std::uint32_t side);
 
   std::uint32_t channels_;
@@ -74,8 +74,8 @@ class TileFilter {
 
 // Gradient noise that repeats along x and y.
 
-// Returns Perlin's noise, about -1 to 1, with `cells` lattice cells along a tile's side. It repeats after 1
-// along x and y, but not along z.
+// Returns Perlin noise, from about -1 to 1, with `cells` lattice cells along a tile's side. It repeats after
+// 1 along x and y, but not along z.
 float tile_noise(Vec3 p, std::uint32_t cells, std::uint64_t seed);
 
 // Adds octaves of tile_noise, each with twice the frequency and half the amplitude.

@@ -1,6 +1,5 @@
-// Computes the light that a point of a meso-surface sends to a viewer, for many light directions at once. The
-// radiance is for a light with irradiance 1 on a plane that faces it: a white diffuse plane lit from above
-// gives 1 / pi.
+// Computes the radiance from a point of a meso-surface to a viewer, for many light directions at once. Each
+// light has irradiance 1 on a plane that faces it, so a white diffuse plane lit from above gives 1 / pi.
 #pragma once
 
 #include <span>
@@ -18,11 +17,11 @@ struct SurfaceHit {
   std::uint32_t triangle = nothing;
   float u = 0, v = 0;  // barycentric weights of the second and third vertex
   Vec3 position;       // tile space
-  Vec3 normal;         // geometric, unit, out of the solid
+  Vec3 normal;         // geometric normal, unit length, out of the solid
 };
 
-// The BVH of one tile, in as many copies as a ray of the largest tilt can cross. Any thread may trace.
-// Callers flush denormals (FlushDenormals).
+// A BVH with as many copies of one tile as a ray of the largest tilt can cross. You may trace from any
+// thread. The calling thread must have a FlushDenormals.
 class TiledScene {
  public:
   // The surface must outlive the scene.
@@ -32,10 +31,10 @@ class TiledScene {
   float bottom() const { return bottom_; }
 
   SurfaceHit nearest(Vec3 origin, Vec3 direction) const;
-  // Sets open[i] if nothing lies along directions[i] from just above a hit.
+  // Sets open[i] to true if a ray from just above the hit along directions[i] meets nothing.
   void open_directions(const SurfaceHit& from, std::span<const Vec3> directions,
                        std::span<unsigned char> open) const;
-  // Returns a point just outside of the solid, moved by whole tiles into the middle one.
+  // Returns a point just outside the solid, moved by whole tiles into the middle tile.
   Vec3 outside(Vec3 position, Vec3 normal) const;
 
  private:
@@ -44,7 +43,7 @@ class TiledScene {
   RayScene tile_, plane_;
 };
 
-// A vertex attribute at a hit.
+// Interpolates a vertex attribute at a hit.
 template <class T>
 T at_hit(std::span<const T> vertex_value, std::span<const std::array<std::uint32_t, 3>> triangles,
          const SurfaceHit& hit) {
@@ -52,7 +51,7 @@ T at_hit(std::span<const T> vertex_value, std::span<const std::array<std::uint32
   return vertex_value[t[0]] * (1 - hit.u - hit.v) + vertex_value[t[1]] * hit.u + vertex_value[t[2]] * hit.v;
 }
 
-// Working memory of the calls below, kept between them.
+// Working memory for the calls below. Reuse it between calls.
 struct LightScratch {
   std::vector<Vec3> towards;
   std::vector<std::uint32_t> index;
@@ -60,13 +59,14 @@ struct LightScratch {
   std::vector<float> cosine;
 };
 
-// Cosines of all lights at a hit, zero where the light is blocked or behind the surface.
+// Computes the cosines of all lights at a hit. A cosine is zero if the light is blocked or behind the
+// surface.
 void direct_cosines(const TiledScene& scene, const SurfaceHit& hit, Vec3 shading_normal,
                     std::span<const Vec3> lights, std::span<float> cosine, LightScratch& scratch);
 
-// The light that the meso-surface reflects onto itself. It has the irradiance after up to `bounces` diffuse
-// reflections for each vertex and light, RGB, vertex-major. `rays` cosine-weighted rays leave each vertex.
-// The same seed gives the same bits on any number of threads.
+// The light that the meso-surface reflects onto itself. It stores the RGB irradiance after up to `bounces`
+// diffuse reflections for each vertex and light, vertex-major. `rays` cosine-weighted rays are traced from
+// each vertex. The same seed gives the same bits on any number of threads.
 class InterReflection {
  public:
   InterReflection(const MesoSurface& surface, const TiledScene& scene, std::span<const Vec3> lights,
@@ -78,10 +78,10 @@ class InterReflection {
  private:
   const MesoSurface& surface_;
   std::size_t lights_;
-  std::vector<float> irradiance_;  // empty without bounces
+  std::vector<float> irradiance_;  // empty if there are no bounces
 };
 
-// Sets value[3 l + channel] for one hit, seen along `view`.
+// Sets value[3 l + channel], for each light l, at one hit that is seen along `view`.
 void shade(const MesoSurface& surface, const TiledScene& scene, const InterReflection& indirect,
            const SurfaceHit& hit, Vec3 view, std::span<const Vec3> lights, std::span<float> value,
            LightScratch& scratch);

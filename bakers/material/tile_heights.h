@@ -1,4 +1,4 @@
-// The heights of a tile: finds them from what its views agree on, and intersects rays with them.
+// Finds the heights of a tile at which its views agree, and intersects rays with heights.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +12,16 @@
 
 namespace nook::bake::material {
 
-// Called with the steps that are done; returns false to stop with Failure(NOOK_ERROR_CANCELLED).
+// Called with the number of finished steps. Return false to stop with Failure(NOOK_ERROR_CANCELLED).
 using ReliefProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
 // Returns heights over the plane z = 0 in tiles, one for each texel. At the chosen height, views within 53
-// degrees of the normal show the most similar colours in 3 x 3 texels. It tries 49 heights up to 0.24 tiles
-// on either side, and places the result between them by a parabola. Progress counts texels. Any number of
-// threads gives the same bits.
+// degrees of the normal show the most similar colours in 3 x 3 texels. Tries 49 heights up to 0.24 tiles on
+// either side, and interpolates the result between them with a parabola. `progress` counts texels. Any number
+// of threads gives the same bits.
 std::vector<float> heights_of_views(const RawMaterial& raw, const ReliefProgress& progress = {});
 
-// Heights over the plane z = 0 in tiles, texel x * height + y, read linearly.
+// Heights over the plane z = 0 in tiles, in the texel order x * height + y. Look-ups are bilinear.
 struct HeightMap {
   std::uint32_t width = 0, height = 0;
   std::span<const float> heights;
@@ -35,12 +35,12 @@ HeightRange range_of(const HeightMap& map);
 // x and y are in tiles.
 float height_at(const HeightMap& map, float x, float y);
 
-// Returns the steps of a march over the whole range of heights. A step is at most half a texel along the
-// tile.
+// Returns the number of steps for a march over the whole range of heights. A step is at most half a texel
+// along the tile.
 int steps_of(const HeightMap& map, Vec3 direction, float depth);
 
-// Returns the height where the ray through (x, y, 0) along a view first meets the heights. The view's z must
-// be above 0.
+// Returns the height at which the ray through (x, y, 0) along `view` first meets the surface. The z of `view`
+// must be above 0.
 float first_height(const HeightMap& map, HeightRange range, float x, float y, Vec3 view);
 
 }  // namespace nook::bake::material

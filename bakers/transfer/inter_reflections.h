@@ -1,4 +1,5 @@
-// Computes light that a shape reflects onto itself, as irradiance at vertices for each band of distant light.
+// Computes the light that a shape reflects onto itself: the irradiance at vertices for each band of distant
+// light.
 #pragma once
 
 #include <span>
@@ -25,13 +26,14 @@ struct Reflection {
 IrradianceBands direct_irradiance(Vec3 normal, const nook::transfer::CubeCells& cells,
                                   std::span<const VisibleDirection> visible);
 
-// Returns the irradiance that a vertex receives from surfaces. They receive `before` at their vertices and
-// reflect all of it evenly, only on the side of their normals. The caller must set FlushDenormals.
+// Returns the irradiance that a vertex receives from surfaces. The irradiance of these surfaces at their
+// vertices is `before`. They reflect all of it diffusely, only on the side of their normals. The calling
+// thread must have a FlushDenormals.
 IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t vertex,
                                      std::span<const IrradianceBands> before);
 
-// Sets the reflected light of the transfer, one reflection after another, from the direct irradiance of all
-// vertices.
+// Computes the reflected light of the transfer from the direct irradiance of all vertices, one reflection
+// after another.
 void reflect(const Reflection& reflection, std::uint32_t bounces, VertexLoop& loop,
              std::vector<IrradianceBands> received, nook::transfer::Transfer& transfer);
 

@@ -50,9 +50,9 @@ constexpr std::size_t most_samples = 768;    // vertices that choose the common 
 constexpr std::size_t seed_vertices = 4096;  // vertices that choose the first clusters
 constexpr Index seed_axes = 24;
 
-// Lobes overlap, so that least squares gives neighbours amplitudes of opposite signs. An error of a matrix
-// counts only as much as some light shows it. This is the expected product of light and light, S = E[l l^T],
-// as S = C C^T: then |C^T T| is the expected size of T^T l.
+// Lobes overlap, so least squares gives neighbouring lobes amplitudes of opposite signs. So an error of a
+// matrix T should only count as much as it is visible under typical light l. LightMetric is the factor C of
+// the second moment of light, S = E[l l^T] = C C^T. Then |C^T T| is the root mean square size of T^T l.
 struct LightMetric {
   MatrixXd root, inverse_transpose;  // C and C^-T
 };
@@ -88,14 +88,15 @@ LightMetric light_metric(std::uint32_t lobes) {
       }
       moments(i, j) = moments(j, i) = sum;
     }
-  // S = G^-1 M G^-1, so that C = G^-1 M^(1/2).
+  // Since S = G^-1 M G^-1, C = G^-1 M^(1/2).
   moments.diagonal().array() *= 1 + 1e-6;
   const MatrixXd half = moments.llt().matrixL();
   const MatrixXd identity = MatrixXd::Identity(Index(lobes), Index(lobes));
   return {gram.llt().solve(half), gram * half.transpose().triangularView<Eigen::Upper>().solve(identity)};
 }
 
-// The common combinations of lobes: X = project T is close to every C^T T, and T to expand X.
+// The common combinations of lobes. X = project * T approximates C^T T in a smaller basis, and expand * X
+// approximates T.
 struct CommonBasis {
   Matrix project;   // common rank x lobes
   MatrixXd expand;  // lobes x common rank
@@ -115,7 +116,8 @@ Index seed_step(Index count) {
   return std::max<Index>(count / Index(seed_vertices), 1);
 }
 
-// Counts different rows among these vertices, up to `enough`. There cannot be more clusters.
+// Counts the distinct rows among these vertices, up to `enough`. There cannot be more clusters than distinct
+// rows.
 std::size_t distinct_rows(const Eigen::Map<const Matrix>& rows, std::size_t enough) {
   std::set<float> norms;
   for (Index i = 0; i < rows.rows() && norms.size() < enough; i += seed_step(rows.rows()))
@@ -151,7 +153,7 @@ std::vector<std::uint32_t> first_clusters(const Eigen::Map<const Matrix>& rows, 
     (means.rowwise() - points.row(i)).rowwise().squaredNorm().minCoeff(&nearest);
     out[std::size_t(i)] = std::uint32_t(nearest);
   }
-  // The chosen vertices keep their groups, so that no group is empty.
+  // The vertices that chose the clusters keep their groups, so that no group is empty.
   for (Index i = 0; i < chosen.rows(); ++i) out[std::size_t(i * step)] = group[std::size_t(i)];
   return out;
 }
@@ -160,8 +162,8 @@ std::uint16_t finite_half(double value) {
   return to_half(float(std::clamp(value, -65504.0, 65504.0)));
 }
 
-// Packs the parts of a fit as half floats. The largest number in each column of a lobe basis becomes 1, and
-// the cores take over the factor. The cores get one scale, so that their largest number is 2^12.
+// Packs the parts of a fit as half floats. Each column of a lobe basis is scaled so that its largest number
+// is 1, and the cores absorb the factor. All cores share one scale, so that their largest number is 2^12.
 PaperTransfer packed(const tensor::ClusteredFit& fit, const MatrixXd& expand, std::uint32_t light_modes) {
   PaperTransfer paper;
   const auto vertex_rank = Index(fit.ranks[0]), lobe_rank = Index(fit.ranks[1]),

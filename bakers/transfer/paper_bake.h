@@ -12,7 +12,8 @@ namespace nook::bake::transfer {
 // Traces the raw data of the paper's form: for each vertex the matrix from lobes to the light modes of a
 // material.
 
-// The scene and the material of all vertices. All references must outlive the matrices.
+// The scene and the material for all vertices. The referenced objects must outlive the computation of the
+// matrices.
 struct MatrixSource {
   const SurfaceMesh& mesh;
   const RayScene& scene;
@@ -30,16 +31,16 @@ struct MatrixWorkspace {
   tensor::Matrix matrix;  // lobes x 3 light modes
 };
 
-// Sets work.matrix to the integrals of visibility, lobe and light basis at a vertex. The caller must set
-// FlushDenormals.
+// Sets work.matrix to the integrals of visibility, lobe and light basis at a vertex. The calling thread must
+// have a FlushDenormals.
 void light_matrix(const MatrixSource& source, std::uint32_t lobes, std::size_t vertex, MatrixWorkspace& work);
 
 struct PaperSettings {
-  // With 0, there is one for each 360 vertices, the density of the paper's Table II, up to 256.
+  // If 0, there is one cluster per 360 vertices, as in the paper's Table II, up to 256 clusters.
   std::uint32_t clusters = 0;
   std::uint32_t lobe_rank = 64, vertex_rank = 12;  // the paper's
-  // All matrices are first reduced to this number of combinations of lobes. The fit then takes four times
-  // vertices x this x 3 light modes floats of memory.
+  // All matrices are first reduced to this number of combinations of lobes. The fit then needs memory for 4 *
+  // vertices * common_rank * 3 * light modes floats.
   std::uint32_t common_rank = 128;
   std::uint32_t iterations = 12;
   std::uint32_t nearest = 8;  // clusters that a vertex tries
@@ -49,9 +50,10 @@ struct PaperSettings {
 // Throws Failure(INVALID_ARGUMENT) for numbers out of range.
 void check_paper_bake(const SurfaceMesh& mesh, const PaperSettings& paper);
 
-// The bounces and holes of `settings` count as in bake_transfer. So does the progress, which begins with the
-// matrices of vertices; `fitted` counts clusters over all iterations. Returns the same bits for the same seed
-// on any number of threads. Throws Failure: as check_bake and check_paper_bake, and CANCELLED.
+// Uses the bounces and holes of `settings` like bake_transfer. `progress` also counts like in bake_transfer,
+// and starts with the matrices of the vertices. `fitted` counts clusters over all iterations. Returns the
+// same bits for the same seed on any number of threads. Throws Failure: like check_bake and check_paper_bake,
+// and CANCELLED.
 nook::transfer::Transfer bake_paper(const SurfaceMesh& mesh, const BakeSettings& settings,
                                     const PaperSettings& paper, const nook::material::MaterialTables& tables,
                                     const Progress& progress = {}, const Progress& fitted = {});

@@ -20,7 +20,7 @@ namespace {
 using nook::transfer::CubeCells;
 using nook::transfer::Transfer;
 
-// A lobe counts as 0 if a smaller share of it is above a vertex's horizon.
+// If the share of a lobe above a vertex's horizon is smaller than this, the lobe counts as 0.
 constexpr float dark = 1e-4f;
 
 // The memory that one thread reuses for all its vertices.

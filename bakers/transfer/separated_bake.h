@@ -1,5 +1,5 @@
-// Bakes radiance transfer: for each vertex and lobe the cosine-weighted share of the lobe that reaches the
-// vertex. See sdk/src/transfer/transfer.h.
+// Bakes radiance transfer: for each vertex and lobe, the cosine-weighted share of the lobe's light that
+// reaches the vertex. See sdk/src/transfer/transfer.h.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,14 @@ namespace nook::bake::transfer {
 
 struct BakeSettings {
   std::uint32_t lobes = 642;
-  // Rays go through the centres of the cells of a cube with side x side cells per face. The paper has 32,
-  // which gives a vertex 6,144 rays, half of them below its horizon.
+  // Rays go through the centres of the cells of a cube with side x side cells per face. The paper uses 32,
+  // which is 6,144 rays per vertex. Half of them are below the vertex's horizon.
   std::uint32_t side = 32;
-  // Counts reflections of the shape onto itself, up to max_bounces, gathered through the same cells.
+  // The number of reflections of the shape onto itself, up to max_bounces. Reflected light is gathered
+  // through the same cells.
   std::uint32_t bounces = 0;
-  // The holes of the material that the shape wears, with `tiles` tiles in one unit of texture coordinates;
-  // null: surfaces have none.
+  // The holes of the shape's material, with `tiles` tiles in one unit of texture coordinates. If null,
+  // surfaces have no holes.
   std::shared_ptr<const HoleTable> holes = nullptr;
   float tiles = 1;
 };
@@ -30,10 +31,10 @@ inline constexpr std::uint32_t max_ray_side = 256;
 // different lengths, and numbers that are not finite. Normals and tangents must have unit length to 1e-3.
 void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings);
 
-// Progress counts vertices, once for the direct light and once for each reflection. Ray origins lie 1e-4 of
-// the bounding box's diagonal above their vertex, along its normal. Threads work on blocks of vertices, and
-// the result does not depend on their number. The result has passed check_transfer, and its recipe is empty.
-// Throws Failure: like check_bake, and CANCELLED if progress returns false.
+// `progress` counts vertices, once for the direct light and once for each reflection. Ray origins are above
+// their vertex along its normal, by 1e-4 of the bounding box's diagonal. Threads work on blocks of vertices.
+// The result does not depend on the number of threads. The result has passed check_transfer, and its recipe
+// is empty. Throws Failure: like check_bake, and CANCELLED if progress returns false.
 nook::transfer::Transfer bake_transfer(const SurfaceMesh& mesh, const BakeSettings& settings,
                                        const Progress& progress = {});
 

@@ -50,8 +50,8 @@ float bilinear(const Number* image, std::uint32_t width, std::uint32_t height, f
   return low + (high - low) * y.t;
 }
 
-// Sets the mean visibility of each texel. Values are linear between texels but the mapping is not, so that a
-// texel needs further points between its neighbours.
+// Computes the mean visibility of each texel. Values are linear between texels but the mapping is not, so a
+// texel is sampled at several points.
 void fill_finest(const MaterialTables& tables, Vec3 view, std::vector<float>& values,
                  std::vector<float>& cover) {
   constexpr std::uint32_t points = 4;  // per side
@@ -129,7 +129,7 @@ Corners corners_of(const SurfaceMesh& mesh, const RayHit& hit) {
   return {mesh.triangle[hit.triangle], {1 - hit.u - hit.v, hit.u, hit.v}};
 }
 
-// Returns the triangle's area in texture coordinates over its area in space, per square metre.
+// Returns the triangle's area in texture coordinates divided by its area in space, per square metre.
 float density(const SurfaceMesh& mesh, const std::array<std::uint32_t, 3>& vertex) {
   const Vec3 a = mesh.position[vertex[1]] - mesh.position[vertex[0]],
              b = mesh.position[vertex[2]] - mesh.position[vertex[0]];
@@ -153,7 +153,7 @@ nook::transfer::Frame frame_at(const SurfaceMesh& mesh, const RayHit& hit) {
 std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const HoleTable* table, float tiles,
                                           std::size_t rays) {
   if (!table) return {};
-  // The side of a mean cell.
+  // The side of an average cell of the sphere.
   const float spread_rad = std::sqrt(4 * std::numbers::pi_v<float> / float(rays));
   return SurfaceHoles(mesh, *table, tiles, spread_rad);
 }

@@ -1,4 +1,4 @@
-// Rays through the holes of the meso-structure that a mesh wears.
+// Traces rays through the holes of the meso-structure on a mesh.
 #pragma once
 
 #include <cstddef>
@@ -14,20 +14,21 @@
 
 namespace nook::bake::transfer {
 
-// The share of a material's meso-structure that a straight line meets, tabulated from its VOTF. Millions of
-// rays can look it up at any size of footprint.
+// A table of how much of a straight line's footprint a material's meso-structure covers, made from the
+// material's VOTF. It is fast enough for look-ups by millions of rays with footprints of any size.
 
 struct HoleTable {
   std::uint64_t votf_hash = 0;  // hash of the material's VOTF
   std::uint32_t side = 0;       // cells of the parabolic map of views
   std::uint32_t width = 0, height = 0, levels = 0;
   // For each cell, one level after another, rows of texels: 255 where a line meets the structure, 0 in a
-  // hole. Levels are means of the finest one. Levels of signed distances would not be.
+  // hole. Each level is a mean of the finest level. With levels of signed distances, this would not hold.
   std::vector<std::uint8_t> cover;
 
   std::size_t cell_bytes() const;
-  // Returns the share that lines along `view` meet around a point of the tile, which repeats. view is a unit
-  // vector of tangent space with z >= 0; level is log2 of the footprint's side in texels.
+  // Returns the share of lines along `view` that meet the structure around a point of the tile. The tile
+  // repeats. `view` is a unit vector in tangent space with z >= 0. `level` is log2 of the footprint's side in
+  // texels.
   float cover_at(float u, float v, float level, Vec3 view) const;
 };
 
@@ -40,14 +41,14 @@ nook::transfer::Frame frame_at(const SurfaceMesh& mesh, const RayHit& hit);
 class SurfaceHoles {
  public:
   // The material has `tiles` tiles in one unit of texture coordinates. Each ray represents the light within
-  // spread_rad of it. Both references must outlive this object.
+  // spread_rad of its direction. `mesh` and `table` must outlive this object.
   SurfaceHoles(const SurfaceMesh& mesh, const HoleTable& table, float tiles, float spread_rad);
 
-  // Returns the share of a ray that the surface at a hit stops. A line through the structure meets the same
-  // share of it in both directions.
+  // Returns the share of a ray that the surface at a hit stops. The share is the same for both directions of
+  // a line through the structure.
   float cover(const RayHit& hit, Vec3 direction) const;
 
-  // Returns the share of light that comes through all surfaces along a ray.
+  // Returns the share of light that passes all surfaces along a ray.
   float share_through(const RayScene& scene, Vec3 origin, Vec3 direction) const;
 
  private:
@@ -56,16 +57,17 @@ class SurfaceHoles {
   float tiles_, spread_rad_;
 };
 
-// Returns the holes for rays that share the sphere evenly; none without a table.
+// Returns the holes for rays that are spread evenly over the sphere. Returns nothing if `table` is null.
 std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const HoleTable* table, float tiles,
                                           std::size_t rays);
 
-// Calls body(hit, share) for the surfaces along a ray, the nearest first, with the share of the ray that ends
-// there. Returns the share that reaches the sky. holes may be null: then the first surface takes all.
+// Calls body(hit, share) for the surfaces along a ray, the nearest first. `share` is the share of the ray
+// that ends at this surface. Returns the share that reaches the sky. If `holes` is null, the whole ray ends
+// at the first surface.
 template <class Body>
 float walk_surfaces(const RayScene& scene, const SurfaceHoles* holes, Vec3 origin, Vec3 direction,
                     Body&& body) {
-  // A remainder of the ray below half a step of a byte does not count.
+  // Stops when less than half a step of an 8-bit value remains of the ray.
   constexpr float nothing = 1 / 512.0f;
   float rest = 1, beyond = 0;
   while (rest > nothing) {

@@ -14,19 +14,19 @@
 
 namespace nook::bake::transfer {
 
-// Return false to stop. Worker threads call it, one call at a time.
+// Called from worker threads, one call at a time. Return false to stop.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Runs body(vertex, workspace) on all threads for vertices from 0 on, and counts them for the progress.
-// Blocks start at multiples of `block`. The vertices of a block reuse its workspace.
+// Runs body(vertex, workspace) on all threads for vertices from 0 on, and counts the vertices for the
+// progress. Blocks start at multiples of `block`. All vertices of a block use the same workspace.
 class VertexLoop {
  public:
   static constexpr std::size_t block = 64;
 
-  // total: vertices of all runs.
+  // `total` is the number of vertices over all runs.
   VertexLoop(std::size_t total, const Progress& progress) : total_(total), progress_(progress) {}
 
-  // Throws Failure(CANCELLED) if the progress returns false.
+  // Throws Failure(CANCELLED) if the progress callback returns false.
   template <class Workspace, class Body>
   void run(std::size_t vertices, Body&& body) {
     tbb::parallel_for(

@@ -9,7 +9,7 @@
 namespace nook::bake::transfer {
 namespace {
 
-// Rays from one point, until the packet is full.
+// Collects rays from one point until the packet is full.
 struct Packet {
   Vec3 origin;
   std::array<Vec3, RayScene::packet_size> direction;
@@ -46,7 +46,8 @@ void visible_directions(const RayScene& scene, Vec3 origin, Vec3 normal, std::sp
 
 namespace {
 
-// Lobes are cut off at exp(-reach) of their height, 1e-4, because a share has 8 bits.
+// Lobes are cut off at exp(-reach) = 1e-4 of their height. This is accurate enough, because a share has 8
+// bits.
 constexpr float reach = 9;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Finds the directions in which a point sees the sky, from a fixed set.
+// Finds the directions of a fixed set in which a point sees the sky.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,23 @@
 
 namespace nook::bake::transfer {
 
-// A direction's index, and the share of its light that arrives. It is below 1 only through holes.
+// A direction's index, and the share of its light that arrives. The share is below 1 only if the light passes
+// through holes.
 struct VisibleDirection {
   std::uint32_t direction = 0;
   float share = 1;
 };
 
-// Appends to `visible` the directions above the horizon of `normal` from which light arrives. Indices rise
-// within a packet of 16 rays. Both sides of triangles occlude. holes may be null. The caller must set
-// FlushDenormals.
+// Appends to `visible` the directions above the horizon of `normal` from which light arrives. Indices are
+// ascending within a packet of 16 rays. Both sides of triangles occlude. `holes` may be null. The calling
+// thread must have a FlushDenormals.
 void visible_directions(const RayScene& scene, Vec3 origin, Vec3 normal, std::span<const Vec3> directions,
                         const SurfaceHoles* holes, std::vector<VisibleDirection>& visible);
 
 // Finds the lobes that reach each of a fixed set of directions.
 
-// The lobes that send light from each direction, with their value times the direction's solid angle.
+// For each direction, the lobes that send light from it, with the lobe's value times the direction's solid
+// angle.
 struct LobesOfDirections {
   std::vector<std::uint32_t> begin;  // per direction, and one past the end
   std::vector<std::uint32_t> lobe;

@@ -12,7 +12,7 @@ float scale_to_metres(const SkinnedMesh& mesh) {
   if (mesh.position.empty()) return 1;
   const Bounds box = bounds_of(mesh.position);
   const float extent = std::max({box.high.x - box.low.x, box.high.y - box.low.y, box.high.z - box.low.z});
-  // Also where a position is not finite.
+  // Also true if a position is not finite.
   if (!(extent > 0 && extent < 1e12f)) return 1;
   if (extent * most_times > person_m && extent < most_times * person_m) return 1;
   return std::exp2(std::round(std::log2(person_m / std::max(extent, 1e-12f))));

@@ -1,5 +1,5 @@
-// Bodies whose file is not in metres. Floors, walls and pulls of a fit are metres, so that a fox of 176 m
-// would stand on a floor of its paw's size.
+// Handles bodies with a file that is not in metres. The floors, walls and priors of a fit are in metres.
+// Without scaling, a fox with a size of 176 m would stand on a floor as small as its paw.
 #pragma once
 
 #include <span>
@@ -10,8 +10,8 @@
 
 namespace nook::bake {
 
-// Returns 1 for bodies with an extent of 0.2 m to 14 m; for others the power of two that brings them nearest
-// to 1.7 m. Powers of two change no digit of a number.
+// Returns 1 for bodies with an extent of 0.2 m to 14 m. For other bodies, returns the power of two that
+// scales the extent nearest to 1.7 m. Scaling by a power of two causes no rounding.
 float scale_to_metres(const SkinnedMesh& mesh);
 
 SkinnedMesh mesh_in_metres(const SkinnedMesh& mesh, float scale);

@@ -1,5 +1,5 @@
-// A number carries its derivatives with respect to the eight parameters of a capsule. Forward differentiation
-// uses the same formulas as the runtime.
+// A number with its derivatives with respect to the eight parameters of a capsule. With this type, forward
+// differentiation can use the same formulas as the runtime.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct Dual {
   }
 };
 
-// value and the sum of first * a.slope and second * b.slope.
+// Returns a number with the given value and the slope first * a.slope + second * b.slope.
 inline Dual combined(float value, float first, const Dual& a, float second, const Dual& b) {
   Dual r(value);
   for (std::size_t i = 0; i < Dual::count; ++i) r.slope[i] = first * a.slope[i] + second * b.slope[i];
@@ -61,7 +61,7 @@ inline Dual min(const Dual& a, const Dual& b) {
 inline Dual max(const Dual& a, const Dual& b) {
   return a.value > b.value ? a : b;
 }
-// The slope is infinite at 0. A finite slope keeps products with 0 at 0.
+// The true slope is infinite at 0. A finite slope is returned instead, so that its products with 0 are 0.
 inline Dual sqrt(const Dual& a) {
   const float r = std::sqrt(a.value);
   return scaled(r, 0.5f / std::fmax(r, 1e-6f), a);

@@ -19,9 +19,10 @@
 namespace nook::bake {
 namespace {
 
-// Parameters of a caster: two ends, then the logarithms of the radii and of their scale in AO.
+// The number of parameters of a caster: two ends, the logarithms of both radii, and the logarithm of their
+// scale in AO.
 constexpr std::size_t width = Dual::count + 1;
-// Number of sums, which are added in order, so that the result does not depend on the threads.
+// The number of partial sums. They are added in order, so that the result does not depend on the threads.
 constexpr std::size_t chunks = 16;
 constexpr std::size_t block_rows = 128;  // points whose derivatives are multiplied at once
 
@@ -29,7 +30,8 @@ using Parameters = Eigen::VectorXd;
 
 float covered_share(const Capsule& c, const TrainingPoint& point) {
   if (!point.of_light()) return coverage_at(c, point.position, point.normal);
-  // A capsule that counts as a rectangle reaches a little beyond its round ends: twice the cone is enough.
+  // A capsule that is approximated by a rectangle reaches a little beyond its round ends. Testing with twice
+  // the cone's angle is enough.
   if (!may_hide(c, point.position, point.normal, 2 * std::atan(point.slope))) return 0;
   return part_coverage_at(c, point.position, point.normal, point.slope);
 }
@@ -201,7 +203,7 @@ class Objective {
     multiply();
   }
 
-  // A light is hidden by few casters, whose rows and columns alone change.
+  // Only a few casters hide a light, so only their rows and columns change.
   void add_light(std::span<const WorldCaster> casters, const std::vector<Capsule>& capsules,
                  const TrainingPoint& point, Sums& sums) const {
     struct Hiding {
@@ -215,7 +217,7 @@ class Objective {
       if (!may_hide(capsules[k], point.position, point.normal, 2 * std::atan(point.slope))) continue;
       Slopes share = coverage_with_slopes(capsules[k], pose[casters[k].bone], point);
       open *= 1 - share.value;
-      // A capsule whose ends meet has no slopes.
+      // If both ends of a capsule coincide, its slopes are not finite.
       const bool finite = std::all_of(share.slope.begin(), share.slope.end(),
                                       [](float slope) { return std::isfinite(slope); });
       if (!finite) share.slope.fill(0);
@@ -243,8 +245,8 @@ class Objective {
   const TrainingPoints& set_;
 };
 
-// A capsule without a length has no direction, and derivatives there are endless. The fit begins with a
-// length of a tenth of the radius.
+// A capsule without a length has no direction, and its derivatives are infinite. So the fit starts with a
+// length of at least a tenth of the radius.
 void lengthen(std::vector<WorldCaster>& casters) {
   for (WorldCaster& caster : casters) {
     Capsule& c = caster.capsule;
@@ -269,8 +271,7 @@ void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) 
     }
     return out;
   };
-  // The errors of AO depend only on the radii in AO. With these fixed, the two scales can be found one by
-  // one.
+  // The errors of AO depend only on the radii in AO, so the two scales can be found one after the other.
   const auto best_of = [&](auto&& candidate) {
     std::vector<WorldCaster> best;
     double least = INFINITY;
@@ -289,7 +290,7 @@ void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) 
   casters = best_of([&](float radius) { return scaled(radius, in_ao / radius); });
 }
 
-// Returns the inverse variances of the pull towards the start.
+// Returns the inverse variances of the prior that keeps parameters near their initial values.
 Eigen::VectorXd pull_of(std::size_t casters, const WorldCasterSettings& s) {
   Eigen::VectorXd pull(Eigen::Index(casters * width));
   for (std::size_t i = 0; i < casters * width; ++i) {
@@ -299,8 +300,8 @@ Eigen::VectorXd pull_of(std::size_t casters, const WorldCasterSettings& s) {
   return pull;
 }
 
-// Fewer casters have fewer parameters, so that fewer points determine them. Below a quarter, the noise of
-// their positions would show.
+// Fewer casters have fewer parameters, so fewer points are enough. With fewer than a quarter of the points,
+// the randomness of their positions would be visible.
 WorldCasterSettings with_points_for(std::size_t casters, WorldCasterSettings settings) {
   const double share = std::clamp(double(casters) / double(settings.casters), 0.25, 1.0);
   for (std::size_t* const points :
@@ -321,7 +322,7 @@ std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<co
                                                settings, report, progress),
                              1 / scale);
   const platform::Stopwatch watch;
-  // A mesh of one bone is an object, such as a table, whose triangles may be large.
+  // A mesh with one bone is an object, such as a table. Its triangles may be large.
   const SkinnedMesh fine = mesh.bones.size() == 1 ? refined(mesh) : SkinnedMesh{};
   const SkinnedMesh& begin = mesh.bones.size() == 1 ? fine : mesh;
   std::vector<WorldCaster> casters =

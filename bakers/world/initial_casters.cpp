@@ -8,7 +8,7 @@
 namespace nook::bake {
 namespace {
 
-// Meshes that would exceed this keep some longer edges.
+// Maximum number of vertices. Larger meshes keep some longer edges.
 constexpr std::size_t most_vertices = 40000;
 
 float diagonal_of(const std::vector<Vec3>& position) {
@@ -42,7 +42,7 @@ SkinnedMesh refined(const SkinnedMesh& mesh) {
         edge = i;
       }
     }
-    // Also where a position is not finite.
+    // Also true if a position is not finite.
     if (!(size > longest) || out.position.size() >= most_vertices) {
       out.triangle.push_back(t);
       continue;
@@ -98,7 +98,7 @@ Shape shape_of(const Part& part, std::span<const Vec3> position, std::span<const
   return shape;
 }
 
-// A thinner caster casts nothing visible.
+// A thinner caster has no visible effect.
 constexpr float least_radius_m = 1e-3f;
 
 WorldCaster capsule_of(const Part& part, std::span<const Vec3> position, std::span<const float> area) {
@@ -138,18 +138,18 @@ bool by_area(const Part& a, const Part& b) {
   return a.area != b.area ? a.area < b.area : a.bone < b.bone;
 }
 
-// Low-poly bodies get fewer capsules: more would follow single triangles, and cost as much as the capsules of
-// a large body.
+// Low-poly bodies get fewer capsules. Otherwise, capsules would follow single triangles, and would cost as
+// much as the capsules of a detailed body.
 constexpr std::size_t least_vertices = 12;
 
 void drop_empty(std::vector<Part>& parts) {
   std::erase_if(parts, [](const Part& part) { return part.vertex.empty(); });
 }
 
-// Bones with less than this share of the body's area, such as fingers, join their parents.
+// Bones with less than this share of the body's area, such as fingers, are merged with their parents.
 constexpr double small_share = 0.004;
 
-// Returns the nearest ancestor with a part; without one, the part with the most area.
+// Returns the nearest ancestor with a part. If there is none, returns the part with the largest area.
 std::size_t host_of(const std::vector<Part>& parts, const SkinnedMesh& mesh, std::size_t small) {
   for (std::int32_t b = mesh.bones[parts[small].bone].parent; b >= 0; b = mesh.bones[std::size_t(b)].parent)
     for (std::size_t i = 0; i < parts.size(); ++i)
@@ -181,7 +181,7 @@ bool cut(std::vector<Part>& parts, std::size_t which, std::span<const Vec3> posi
   Part low, high;
   low.bone = high.bone = parts[which].bone;
   for (const std::uint32_t v : parts[which].vertex) {
-    // A round part is wide rather than long: both halves then keep the axis.
+    // A round part is wider than it is long. After the cut, both halves keep the axis.
     Part& side = dot(position[v] - shape.mean, shape.axis[2]) < 0 ? low : high;
     side.vertex.push_back(v);
     side.area += double(area[v]);
@@ -192,7 +192,7 @@ bool cut(std::vector<Part>& parts, std::size_t which, std::span<const Vec3> posi
   return true;
 }
 
-// Returns the misfit of one capsule to a part: the part's breadth less its thickness, times its area.
+// Returns the misfit of one capsule to a part: (breadth - thickness) * area.
 double misfit(const Part& part, std::span<const Vec3> position, std::span<const float> area) {
   const Shape shape = shape_of(part, position, area);
   return part.area * double(shape.spread[1] - 0.7f * shape.spread[0]) +

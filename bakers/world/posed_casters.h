@@ -1,4 +1,4 @@
-// Casters in a pose, and the openness that they leave at a point.
+// Evaluates casters in a pose, and the openness that they leave at a point.
 #pragma once
 
 #include <cmath>
@@ -13,7 +13,7 @@
 
 namespace nook::bake {
 
-// The scale of a matrix that is rigid or scales all axes alike.
+// Returns the scale of a matrix that is rigid or scales all axes equally.
 inline float scale_of(const Mat3x4& m) {
   return length({m.m[0], m.m[4], m.m[8]});
 }
@@ -40,15 +40,15 @@ inline float coverage_at(const Capsule& c, Vec3 point, Vec3 normal) {
                                 normal.z);
 }
 
-// The share that a capsule hides of one part of a cone.
+// Returns the share of one part of a cone that a capsule hides.
 inline float part_coverage_at(const Capsule& c, Vec3 point, Vec3 axis, float slope) {
   const Vec3 a = c.a - point, b = c.b - point;
   return world::part_coverage<float>({a.x, a.y, a.z, b.x, b.y, b.z, c.radius_a, c.radius_b}, axis.x, axis.y,
                                      axis.z, slope);
 }
 
-// Returns false if the sphere around the capsule is outside a cone around the axis, so that the capsule hides
-// nothing of a light inside.
+// Returns false if the bounding sphere of the capsule is outside a cone around the axis. Then the capsule
+// hides nothing of a light inside the cone.
 inline bool may_hide(const Capsule& c, Vec3 point, Vec3 axis, float half_angle_radians) {
   const Vec3 centre = 0.5f * (c.a + c.b) - point;
   const float radius = 0.5f * length(c.b - c.a) + std::fmax(c.radius_a, c.radius_b);
@@ -59,7 +59,7 @@ inline bool may_hide(const Capsule& c, Vec3 point, Vec3 axis, float half_angle_r
           aside * std::cos(half_angle_radians) - depth * std::sin(half_angle_radians) < radius);
 }
 
-// The product of 1 - coverage over all casters: the AO of the point.
+// Returns the AO of the point: the product of 1 - coverage over all casters.
 inline float open_share(std::span<const Capsule> capsules, Vec3 point, Vec3 normal) {
   float open = 1;
   for (const Capsule& capsule : capsules) open *= 1 - coverage_at(capsule, point, normal);

@@ -38,7 +38,7 @@ Vec3 foot_of(std::span<const Vec3> body) {
   return {0.5f * (b.low.x + b.high.x), b.low.y, 0.5f * (b.low.z + b.high.z)};
 }
 
-// Calls with points that lie at most a grid step apart on a triangle.
+// Calls a function with points on a triangle that are at most a grid step apart.
 template <class Call>
 void spread_over(Vec3 a, Vec3 b, Vec3 c, const Call& call) {
   const float longest = std::max({length(b - a), length(c - a), length(c - b)});
@@ -48,7 +48,7 @@ void spread_over(Vec3 a, Vec3 b, Vec3 c, const Call& call) {
       call(a + (float(i) / float(steps)) * (b - a) + (float(j) / float(steps)) * (c - a));
 }
 
-// The share of the points that lies near the middle of the floor, and half the side of that square.
+// The share of the points that are in a square in the middle of the floor, and half the side of that square.
 constexpr double near_share = 0.75;
 constexpr float near_half_m = 1.2f;
 

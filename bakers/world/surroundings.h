@@ -1,4 +1,5 @@
-// The surfaces that a body darkens: points on the floor, on a wall and on another body, by area.
+// Makes points on the surfaces that a body darkens: the floor, a wall and another body. The points are
+// distributed by area.
 #pragma once
 
 #include <array>
@@ -38,17 +39,18 @@ inline constexpr float wall_distance_m = 0.3f;  // distance from the nearest ver
 inline constexpr float wall_width_m = 3, wall_height_m = 2.5f;
 inline constexpr float neighbour_gap_m = 0.3f;  // between the two bodies, along the bearing
 
-// Returns the height of the lowest vertex, where the floor is.
+// Returns the height of the floor, which is the height of the lowest vertex.
 float floor_height(std::span<const Vec3> body);
 
-// `count` grid points of the floor, three quarters of them within 1.2 m of its middle.
+// Returns `count` grid points of the floor. Three quarters of them are within 1.2 m of its middle.
 SurfacePoints floor_points(std::span<const Vec3> body, std::size_t count, std::uint64_t seed);
-// At most `count` grid points of the contact ring.
+// Returns at most `count` grid points of the contact ring.
 SurfacePoints contact_points(const PosedBody& body, std::size_t count, std::uint64_t seed);
-// `count` grid points of a vertical wall whose foot is on the floor. bearing_radians: from +z towards +x.
+// Returns `count` grid points of a vertical wall that stands on the floor. bearing_radians is measured from
+// +z towards +x.
 SurfacePoints wall_points(std::span<const Vec3> body, float bearing_radians, std::size_t count,
                           std::uint64_t seed);
-// `count` points on the surface of another body with the same floor.
+// Returns `count` points on the surface of another body that stands on the same floor.
 SurfacePoints neighbour_points(std::span<const Vec3> body, const PosedBody& other, float bearing_radians,
                                std::size_t count, std::uint64_t seed);
 

@@ -31,7 +31,7 @@ float open_cone_share(const RayScene& scene, Vec3 origin, const RayCone& cone, s
 
 namespace {
 
-// Light between these heights above the horizon.
+// Lights are between these heights above the horizon.
 constexpr float lowest_light_radians = 0.4f, highest_light_radians = 1.4f;
 
 Vec3 random_light(Random& random) {
@@ -43,21 +43,22 @@ Vec3 random_light(Random& random) {
 // Returns the pose turned about the vertical axis, then laid on its side.
 Pose lying(const Pose& pose, float yaw_radians) {
   const float c = std::cos(yaw_radians), s = std::sin(yaw_radians);
-  // A turn about y, then x to -y and y to x.
+  // Turns about y, then maps x to -y and y to x.
   const Mat3x4 turn{{0, 1, 0, 0, -c, 0, -s, 0, -s, 0, c, 0}};
   Pose out;
   for (const Mat3x4& bone : pose) out.push_back(turn * bone);
   return out;
 }
 
-// Bodies fall, sleep and climb. Every fourth pose lies, so that the floor comes near every part.
+// Bodies fall, sleep and climb. So the body lies down in every fourth pose, and the floor comes near to every
+// part of it.
 constexpr std::size_t lying_every = 4;
 
-// Half angles of cones of light. At run time a cone has 16 parts of a quarter of its angle: these are the
-// parts of cones of 4 to 60 degrees.
+// Half angles of cones of light. At run time, a cone is split into 16 parts with a quarter of its angle. This
+// range covers the parts of cones from 4 to 60 degrees.
 constexpr float least_cone_radians = 0.008f, most_cone_radians = 0.13f;
 
-// A light for one point, with the share of it that is open.
+// Returns a point with its own light, and traces the open share of the light.
 TrainingPoint lit_point(const RayScene& scene, Vec3 at, Vec3 light, std::uint32_t rays, float offset,
                         Random& random) {
   const float half = least_cone_radians * std::pow(most_cone_radians / least_cone_radians, random.unit());
@@ -83,8 +84,8 @@ void add_cones(TrainingPoints& set, const RayScene& scene, const SurfacePoints& 
   }
 }
 
-// Adds points of the floor where the body's shadow begins, ends or could have a hole. Each is a point of the
-// body, moved along the light down to the floor and then a little aside.
+// Adds points of the floor where the body's shadow begins, ends or could have a hole. Each point is a point
+// of the body, projected along the light onto the floor and then moved a little to the side.
 void add_outlines(TrainingPoints& set, const RayScene& scene, const PosedBody& body, std::size_t count,
                   std::uint32_t pose, std::uint32_t rays, float offset, Random& random, double& none) {
   const FlushDenormals flush;
@@ -172,7 +173,7 @@ TrainingPoints trace_training_points(const SkinnedMesh& mesh, std::span<const Po
     add_outlines(set, scene, body, settings.outline_points, std::uint32_t(p), std::max(settings.rays / 8, 1u),
                  offset, random, none[std::size_t(PointKind::outline)]);
   }
-  // The floor near a body is the most visible part and the hardest.
+  // The floor near a body is the most visible part, and the most difficult to get right.
   constexpr double share[point_kinds] = {2, 1, 1.5, 0.7, 1, 2};
   for (TrainingPoint& point : set.point)
     point.weight = float(share[std::size_t(point.kind)] * double(point.weight) /
