@@ -20,7 +20,7 @@ using tensor::Matrix;
 
 constexpr std::uint32_t radiance_sums = 256, visibility_sums = 64;
 
-// The sum that a value is added to, and the value's sign.
+// The index of the sum that a value is added to, and the sign of the value.
 struct Place {
   std::uint32_t sum;
   float sign;
@@ -37,7 +37,7 @@ void add_image(const float* image, std::uint32_t width, std::uint32_t height, Pl
       sums(Eigen::Index(y) * width + x, place.sum) += place.sign * image[std::size_t(x) * height + y];
 }
 
-// images: views of every row, one image after another.
+// `images` has all views of the first row, then of the next row, one image after another.
 Matrix sums_of(const std::vector<float>& images, std::size_t rows, const RawMaterial& raw, std::uint32_t sums,
                std::uint64_t seed) {
   const std::size_t views = raw.views.size(), count = rows * views;
@@ -52,13 +52,13 @@ Matrix sums_of(const std::vector<float>& images, std::size_t rows, const RawMate
   return out;
 }
 
-// Returns R with R^T R = U^T U, so that R a has the length of U a.
+// Returns R with R^T R = U^T U, so that R a has the same length as U a.
 Matrix lengths_of(const nook::material::Material& material) {
   const Eigen::Index rank = material.btf.shape.rank_light;
   const Eigen::Map<const Matrix> basis(material.light_basis.data(),
                                        Eigen::Index(material.light_basis.size()) / rank, rank);
   const Eigen::MatrixXd gram = basis.cast<double>().transpose() * basis.cast<double>();
-  // The shift keeps the factor of a basis that lacks a mode real.
+  // The shift keeps the Cholesky factor real if the basis is rank-deficient.
   const double shift = 1e-9 * gram.trace() + 1e-30;
   const Eigen::MatrixXd shifted = gram + shift * Eigen::MatrixXd::Identity(rank, rank);
   return Matrix(shifted.llt().matrixL().transpose().toDenseMatrix().cast<float>());

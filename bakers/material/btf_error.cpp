@@ -61,7 +61,7 @@ Matrix light_modes(const ClusteredTensor& t, std::size_t view) {
   return modes;
 }
 
-// Returns images of the relief's points as a view sees them.
+// Returns the images that a view sees, from images of the relief's points.
 Matrix seen(const nook::material::Material& material, std::size_t view, const Matrix& images) {
   if (!material.relief.moves()) return images;
   const auto& shape = material.btf.shape;

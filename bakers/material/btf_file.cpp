@@ -17,7 +17,7 @@ namespace {
 
 using Matrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 constexpr std::string_view signature = "!DFMF08FC";
-// Far above any use, but small enough that products cannot overflow.
+// These limits are far above any use, but small enough that products cannot overflow.
 constexpr std::uint32_t most_directions = 65536, most_texels_a_side = 65536;
 
 // The part of the file that is not read yet.
@@ -54,7 +54,7 @@ std::uint32_t Rest::u32(const char* what) {
   return std::uint32_t(little(take(4, what)));
 }
 
-// Returns whether the file has rotations after the size.
+// Returns true if the file has rotations after the size.
 bool read_signature(Rest& rest, std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                               std::min(bytes.size(), signature.size() + 1));
@@ -69,7 +69,7 @@ bool read_signature(Rest& rest, std::span<const std::byte> bytes) {
   return rotated;
 }
 
-// Returns whether the data include the cosine of the light.
+// Returns true if the data include the cosine of the light.
 bool read_head(Rest& rest) {
   constexpr const char* what = "head";
   const std::size_t before = rest.size();
@@ -155,7 +155,7 @@ Eigen::RowVector3f from_yuv(const Eigen::RowVector3f& c) {
   return {c[0] + 1.13983f * c[2], c[0] - 0.39465f * c[1] - 0.5806f * c[2], c[0] + 2.03211f * c[1]};
 }
 
-// Linear RGB of the three channels.
+// Converts the three channels to linear RGB.
 Eigen::RowVector3f to_rgb(const ColourModel& colour, Eigen::RowVector3f c) {
   constexpr float least = 1e-5f;  // added before the logarithm
   const float exponential = std::exp(c[0]);
@@ -199,7 +199,7 @@ struct Rows {
   }
 };
 
-// A channel is pairs * texels^T.
+// The values of a channel are pairs * texels^T.
 struct Channel {
   Matrix pairs;   // light + lights * view
   Matrix texels;  // of the square, in the order of RawMaterial::btf
@@ -211,7 +211,7 @@ Matrix all_rows(const Rows& rows, std::size_t count) {
   return matrix;
 }
 
-// In a raw material, y counts from the bottom; the file begins at the top.
+// In a raw material, y starts at the bottom, but in the file it starts at the top.
 Matrix middle_rows(const Rows& rows, Size size, const RawMaterial& raw) {
   Matrix matrix(Eigen::Index(raw.texels()), Eigen::Index(rows.columns));
   const std::size_t left = (size.width - raw.width) / 2, top = (size.height - raw.height) / 2;
@@ -241,7 +241,7 @@ Channel read_channel(Rest& rest, Size size, const RawMaterial& raw) {
                   static_cast<unsigned long long>(texels));
   rest.take(components * number_bytes, "singular values");
   const auto matrix = [&](std::uint64_t count) {
-    // The product of the sizes of a damaged file may have more than 64 bits.
+    // Divides instead of multiplying, because the product of the sizes in a damaged file may exceed 64 bits.
     const bool fits = count <= rest.size() / (components * number_bytes);
     return Rows{rest.take(fits ? count * components * number_bytes : UINT64_MAX, "matrices"), number_bytes,
                 std::size_t(components)};

@@ -44,7 +44,7 @@ constexpr DefaultRanks builtin_ranks[] = {{"fiber", 16, 80, 64, 64, 80, 80},
                                           {"roughhole", 28, 44, 96, 96, 80, 80},
                                           {"weave", 20, 40, 48, 48, 48, 48}};
 
-// Ranks that a smaller version of a built-in material allows, multiples of 4 where there is room.
+// Returns the rank for a smaller version of a built-in material. It is a multiple of 4 if the size allows.
 std::uint32_t at_most(std::uint32_t rank, std::size_t size) {
   if (rank <= size) return rank;
   return size >= 4 ? std::uint32_t(size / 4 * 4) : std::uint32_t(size);

@@ -50,7 +50,7 @@ struct CompressionSettings {
   bool is_cta_mapped = false;   // CTA gets view maps too; each cell shows one cluster
   std::uint32_t bits = 16;      // bits of stored numbers, see Material in sdk's material/material.h
   ReliefSource relief = ReliefSource::none;
-  // Only for a neural material: the number of feature channels, a multiple of 4, and of training steps.
+  // Used only for neural materials. The number of feature channels must be a multiple of 4.
   std::uint32_t neural_channels = 16, neural_steps = 8000;
   std::uint64_t seed = 1;
 

@@ -90,7 +90,7 @@ Bounds bounds_of(const std::vector<Vec3>& positions) {
 }
 
 void check_bounds(const Bounds& b) {
-  // A comparison with a number that is not finite is false.
+  // The condition is negated, so that a NaN is rejected too.
   if (!(b.z.length() > 0 && b.z.length() <= most_height))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the mesh is %g tiles high, need above 0 and at most %g; give another side of the tile",
@@ -101,8 +101,8 @@ void check_bounds(const Bounds& b) {
                   double(b.x.length()), double(b.y.length()), double(most_width));
 }
 
-// Surfaces share vertices where their primitives do. A vertex has one colour, which it takes from its last
-// triangle.
+// Surfaces share vertices if their primitives do. A vertex can have only one colour. It is the colour of its
+// last triangle.
 std::vector<Vec3> colours_of(const StaticScene& scene) {
   std::vector<Vec3> colours(scene.position.size());
   for (std::size_t t = 0; t < scene.triangle.size(); ++t)
@@ -122,8 +122,8 @@ Place place_of(Vec3 p) {
   return {on_circle(p.x), on_circle(p.y), std::lround(double(p.z) * steps)};
 }
 
-// Adds to each normal the normals of vertices that lie a whole tile away, so that a surface that continues
-// there has no edge. Normals more than 60 degrees apart belong to other faces.
+// Adds to each normal the normals of vertices that are whole tiles away, so that a surface that continues in
+// the next tile has no visible edge. Normals that differ by more than 60 degrees belong to other faces.
 void join_across_border(MesoSurface& surface) {
   std::map<Place, std::vector<std::size_t>> vertices_at;
   for (std::size_t v = 0; v < surface.position.size(); ++v)
@@ -149,7 +149,7 @@ MesoSurface tile_of_scene(const StaticScene& scene, float side_m) {
   for (const Vec3 p : scene.position) surface.position.push_back({p.x / side_m, -p.z / side_m, p.y / side_m});
   const Bounds bounds = bounds_of(surface.position);
   check_bounds(bounds);
-  // Whole tiles bring the mesh to the middle one, so that copies on all sides are as far away.
+  // Moves the mesh by whole tiles into the middle tile, so that the copies on all sides are equally far away.
   const Vec3 shift{-std::floor(bounds.x.middle()), -std::floor(bounds.y.middle()), -bounds.z.middle()};
   for (Vec3& p : surface.position) p += shift;
   surface.triangle = scene.triangle;

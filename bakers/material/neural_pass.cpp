@@ -17,7 +17,7 @@ void rectify(Columns& values) {
   values = values.cwiseMax(neural_leak * values);
 }
 
-// Turns the gradient after the rectifier into the gradient before it.
+// Converts the gradient after the rectifier to the gradient before it.
 void rectify_back(const Columns& after, Columns& gradient) {
   gradient.array() *=
       (after.array() > 0).select(Eigen::ArrayXXf::Ones(after.rows(), after.cols()), neural_leak);
@@ -114,7 +114,7 @@ void set_sum(std::vector<float>& weights, std::size_t where, const Columns& grad
   Eigen::Map<Eigen::VectorXf>(&weights[where], gradient.rows()) = gradient.rowwise().sum();
 }
 
-// Returns the gradient of a height, which moves the place where the features of a position are read.
+// Returns the gradient of a height. The height moves the point at which the features of a position are read.
 float height_gradient(const NeuralNumbers& n, Vec3 view, const NeuralPass::Tap& tap,
                       const Eigen::Ref<const Eigen::VectorXf>& gradient) {
   float along_x = 0, along_y = 0;

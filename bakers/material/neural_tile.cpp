@@ -24,7 +24,8 @@ std::size_t NeuralTile::bytes() const {
 
 namespace {
 
-// The places of a channel's features in a block, row by row. Beyond the rim, the last texels repeat.
+// The indices of a channel's features in a block, row by row. Beyond the border of the tile, the last texels
+// are repeated.
 struct BlockPlaces {
   std::size_t at[16];
 };

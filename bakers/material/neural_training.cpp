@@ -16,10 +16,10 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t part_positions = 64;  // part of a batch, evaluated together
+constexpr std::size_t part_positions = 64;  // positions of a part of a batch; a part is evaluated together
 constexpr std::uint32_t warm_steps = 200;   // steps with a rising rate
 
-// Numbers under training. Features stay in [-1, 1], which blocks encode.
+// Parameters that are trained. Features are clamped to [-1, 1], because blocks cannot encode other values.
 struct Trained {
   std::vector<float> value, gradient;
   Adam adam{0};
@@ -35,10 +35,11 @@ struct Trained {
   }
 };
 
-// Radiance over its root mean square: view x texel x light x RGB, in the order that a position needs.
+// Radiance divided by its root mean square: view x texel x light x RGB. This order makes the values of a
+// position adjacent.
 struct Targets {
   std::vector<float> value;
-  float scale = 1;  // radiance of 1
+  float scale = 1;  // the radiance that a value of 1 stands for
 };
 
 Targets targets_of(const RawMaterial& raw) {
@@ -61,7 +62,8 @@ Targets targets_of(const RawMaterial& raw) {
   return targets;
 }
 
-// The last layer holds the scale in half floats. Beyond these bounds its weights lose digits or overflow.
+// The weights of the last layer contain the scale and are stored as half floats. Outside these bounds, they
+// would lose digits or overflow.
 void check_scale(float scale) {
   constexpr float least = 1.0f / 4096, most = 4096;
   if (!(scale >= least && scale <= most))
@@ -91,8 +93,8 @@ struct Trainer {
   }
 };
 
-// A rectified layer keeps the variance of its inputs: K. He and others, 2015. All nodes of the map of views
-// start equal.
+// Initialises the weights so that a rectified layer preserves the variance of its inputs (K. He and others,
+// 2015). All nodes of the map of views start with equal features.
 void set_first_numbers(Trainer& t) {
   const NeuralShape& s = t.shape;
   Random random(mix_bits(t.settings.seed));
@@ -125,7 +127,7 @@ void report(const StageProgress& progress, const char* stage, std::uint32_t step
                   step, steps);
 }
 
-// Chooses the positions of a part of a batch, and returns their views.
+// Chooses the positions for a part of a batch. Returns their views.
 std::vector<std::uint32_t> choose_positions(const RawMaterial& raw, std::uint64_t seed, std::size_t first,
                                             std::size_t last, NeuralPass& pass) {
   std::vector<std::uint32_t> views(last - first);
@@ -139,7 +141,7 @@ std::vector<std::uint32_t> choose_positions(const RawMaterial& raw, std::uint64_
   return views;
 }
 
-// Adds the gradients of all parts in their order.
+// Adds the gradients of all parts in a fixed order.
 void add_gradients(Trainer& t) {
   for (const NeuralPass& pass : t.parts) {
     for (std::size_t i = 0; i < pass.weights.size(); ++i) t.weights.gradient[i] += pass.weights[i];
@@ -190,8 +192,8 @@ void fit_offsets(Trainer& t, const StageProgress& progress) {
   t.offset_features.adam = Adam(t.offset_features.value.size());
 }
 
-// Chooses the lights of a position: cuts the list into equal stretches from a random light on, and takes one
-// from each.
+// Chooses the lights of a position. Splits the list of lights into equal intervals, starting at a random
+// light, and takes one light from each.
 void choose_lights(const RawMaterial& raw, std::uint64_t seed, std::uint32_t each,
                    std::vector<std::uint32_t>& chosen, std::vector<Vec3>& lights) {
   Random random(seed);

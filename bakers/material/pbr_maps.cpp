@@ -47,7 +47,7 @@ namespace {
 
 constexpr float most_height = 0.5f;  // tiles
 
-// Returns central differences of the heights, across the border of the tile too.
+// Returns central differences of the heights. They continue across the border of the tile.
 MapSlope slope_of(const std::vector<float>& z, std::uint32_t side, std::uint32_t x, std::uint32_t y) {
   const auto at = [&](std::uint32_t column, std::uint32_t row) {
     return z[std::size_t(row % side) * side + column % side];
@@ -87,7 +87,7 @@ std::vector<float> heights_of_map(const PbrMaps& maps, float height_scale_m, flo
   if (maps.height.empty()) return z;
   const auto [low, high] = std::minmax_element(maps.height.begin(), maps.height.end());
   const float range = (*high - *low) * tiles, middle = *low + (*high - *low) / 2;
-  // A comparison with a number that is not finite is false.
+  // The condition is negated, so that a NaN is rejected too.
   if (!(range <= most_height))
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
@@ -119,7 +119,7 @@ MesoSurface surface_of_maps(const PbrMaps& maps, float height_scale_m, float sid
   for (std::uint32_t y = 0; y < side; ++y)
     for (std::uint32_t x = 0; x < side; ++x) {
       const std::uint32_t a = y * across + x, b = a + 1, c = a + across, d = c + 1;
-      // Takes the flatter diagonal, so that ridges and valleys keep their course.
+      // Splits along the flatter diagonal, so that ridges and valleys keep their shape.
       const auto z_of = [&](std::uint32_t v) { return surface.position[v].z; };
       if (std::abs(z_of(a) - z_of(d)) <= std::abs(z_of(b) - z_of(c))) {
         surface.triangle.push_back({a, b, d});

@@ -84,7 +84,7 @@ float tile_noise(Vec3 p, std::uint32_t cells, std::uint64_t seed) {
   const float u = fade(f.x), v = fade(f.y), w = fade(f.z);
   const float low = mix(mix(corner[0], corner[1], u), mix(corner[2], corner[3], u), v);
   const float high = mix(mix(corner[4], corner[5], u), mix(corner[6], corner[7], u), v);
-  // Unit gradients keep Perlin's noise within about +-0.87.
+  // With unit gradients, Perlin noise is within about +-0.87.
   return mix(low, high, w) / 0.87f;
 }
 

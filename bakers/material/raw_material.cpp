@@ -37,7 +37,7 @@ std::vector<Vec3> spiral_directions(std::uint32_t count, float max_tilt_deg) {
 
 namespace {
 
-// Far above any use, but small enough that their product cannot overflow.
+// These limits are far above any use, but small enough that their product cannot overflow.
 constexpr std::uint32_t most_directions = 65536, most_texels_a_side = 16384;
 
 std::vector<std::byte> as_half_bytes(const std::vector<float>& values) {
@@ -196,7 +196,7 @@ std::size_t beside(std::size_t at, std::size_t size) {
   return (at / 2 + (at % 2 ? 1 : size - 1)) % size;
 }
 
-// Sums become means. Empty texels take the coarser level's value, linear between its texels.
+// Divides sums to get means. Empty texels get the value of the coarser level, interpolated linearly.
 void push(const std::vector<Size>& sizes, const Levels& weights, Levels& levels) {
   for (std::size_t l = sizes.size(); l-- > 0;) {
     const Size fine = sizes[l];

@@ -27,7 +27,7 @@ float middle(std::size_t texel, std::uint32_t side) {
   return (float(texel) + 0.5f) / float(side);
 }
 
-// Returns where the view sees the relief's points if nothing hides them.
+// Returns where the view sees the relief's points, ignoring what hides them.
 std::vector<Taps> unhidden_taps(const Relief& relief, const ReliefTables& tables, std::uint32_t width,
                                 std::uint32_t height, Vec3 view) {
   const nook::material::TexturePlace slope = nook::material::relief_slope(tables, view);
@@ -46,7 +46,7 @@ struct ConjugateWork {
   std::vector<float> step, rest, along, image;
 };
 
-// Either sets out to S in, or adds S^T in to it.
+// gather() sets out = S * in. scatter() adds S^T * in to `out`.
 void gather(const std::vector<Taps>& taps, const float* in, float* out) {
   for (std::size_t t = 0; t < taps.size(); ++t) out[t] = mean_of(taps[t], in);
 }
@@ -60,7 +60,7 @@ double square(const std::vector<float>& values) {
 }
 
 // Minimises |S x - shown|^2 + stiffness |x - first|^2 by conjugate gradients from x = first. Rows of S sum to
-// 1, so that the stiffness bounds the error after a few rounds.
+// 1, so the stiffness bounds the error after a few rounds.
 void fit_image(const std::vector<Taps>& taps, const std::vector<float>& shown, std::vector<float>& x,
                ConjugateWork& w) {
   constexpr float stiffness = 0.05f;
@@ -92,7 +92,7 @@ void fit_image(const std::vector<Taps>& taps, const std::vector<float>& shown, s
   }
 }
 
-// Blurs a repeating tile along one side by a Gaussian, whose width is in texels. stride and count describe
+// Blurs a repeating tile along one side by a Gaussian with a width in texels. `stride` and `count` describe
 // the texels along this side.
 std::vector<float> blurred(const std::vector<float>& image, std::size_t count, std::size_t stride,
                            float texels) {
@@ -130,7 +130,7 @@ std::vector<float> few_rows(const RawMaterial& raw) {
 
 constexpr std::size_t folds = 4;
 
-// Returns the squared error of predicting the views of a fold from the other views on a relief.
+// Predicts the views of a fold from the other views on a relief, and returns the squared error.
 double fold_error(const RawMaterial& raw, const Relief& relief, const std::vector<float>& shown,
                   const std::vector<float>& moved, std::size_t fold) {
   std::vector<Vec3> known, held;
@@ -217,12 +217,13 @@ Relief relief_of_heights(const RawMaterial& raw, const std::vector<float>& heigh
 
 namespace {
 
-// The overall count of a search. Each of its parts counts by itself and has the same number of steps.
+// The overall progress of a search. Each part of the search has the same number of steps, and counts its own
+// steps.
 class SearchProgress {
  public:
   SearchProgress(const ReliefProgress& progress, std::size_t parts) : progress_(progress), parts_(parts) {}
 
-  // The progress of the next part.
+  // Returns the progress callback for the next part.
   ReliefProgress next() {
     return [this, part = part_++](std::size_t done, std::size_t total) {
       return !progress_ || progress_(steps * part + steps * done / total, steps * parts_);

@@ -1,5 +1,5 @@
-// RoughHole is a plate of rough stone with holes right through it, which have uneven outlines and rounded
-// rims.
+// RoughHole is a plate of rough stone with holes through the whole plate. The holes have uneven outlines and
+// rounded rims.
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
@@ -23,8 +23,8 @@ struct IsoGrid {
   float bottom = -0.1f, top = 0.1f;
 };
 
-// Six tetrahedra round the main diagonal of a cube, corners numbered x + 2 y + 4 z: faces of neighbours
-// match.
+// Six tetrahedra around the main diagonal of a cube. Corners are numbered x + 2 y + 4 z. The faces of
+// neighbouring cubes match.
 constexpr int tetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
                                   {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
 
@@ -61,7 +61,7 @@ class Marching {
 
   Corner corner(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
     const std::uint32_t n = grid_.cells;
-    // Beyond the last cell, the values repeat from the first one, but the position does not.
+    // After the last cell, the values repeat, but the positions continue.
     return {(std::uint64_t(z) * (n + 1) + y) * (n + 1) + x, point(x, y, z),
             value_[(std::size_t(z) * n + y % n) * n + x % n]};
   }
@@ -102,7 +102,7 @@ class Marching {
     add({a, b, edge_vertex(*apex, base[2], surface)}, inside[0].position, surface);
   }
 
-  // Turns the triangle so that the inner point is on its back.
+  // Orients the triangle so that the inner point is behind it.
   void add(std::array<std::uint32_t, 3> t, Vec3 inner, MesoSurface& surface) const {
     const Vec3 a = surface.position[t[0]];
     const Vec3 normal = cross(surface.position[t[1]] - a, surface.position[t[2]] - a);
@@ -115,8 +115,9 @@ class Marching {
   std::unordered_map<std::uint64_t, std::uint32_t> vertex_;
 };
 
-// field is positive inside, has the period 1 along x and y, and is negative at bottom and top. Its gradient
-// gives the normals. albedo is evaluated at each vertex. Opposite sides of the tile match vertex by vertex.
+// `field` must be positive inside, have the period 1 along x and y, and be negative at the bottom and the
+// top. Its gradient gives the normals. `albedo` is evaluated at each vertex. Opposite sides of the tile match
+// vertex by vertex.
 MesoSurface extract_isosurface(const std::function<float(Vec3)>& field,
                                const std::function<Vec3(Vec3)>& albedo, const IsoGrid& grid) {
   MesoSurface surface;
@@ -164,8 +165,8 @@ MesoSurface make_rough_hole(const MesoParameters& p) {
     }
     return nearest + ragged;
   };
-  // Positive inside. In the hole's wall the distance to the rim takes over from the height, along a quarter
-  // circle.
+  // Positive inside. At the rim of a hole, the field changes along a quarter circle from the height to the
+  // distance to the hole.
   const auto field = [=](Vec3 q) {
     const float depth = half - std::abs(q.z), wall = from_rim(q), round = 0.5f * half;
     const float corner = std::hypot(std::max(round - depth, 0.0f), std::max(round - wall, 0.0f));

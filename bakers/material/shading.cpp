@@ -13,11 +13,13 @@
 namespace nook::bake::material {
 namespace {
 
-// Tiles on each side of the middle one. A ray of 80 degrees tilt crosses a structure of half a tile's height
-// within three tiles. Only inter-reflection casts flatter rays, which count as open beyond.
+// Number of tiles on each side of the middle tile. A ray with a tilt of 80 degrees crosses a structure with a
+// height of half a tile within three tiles. Only inter-reflection traces flatter rays. They count as open
+// beyond these tiles.
 constexpr int copies = 3;
 
-// In tiles. It is far below a texel, and far above the rounding of coordinates up to `copies`.
+// In tiles. It must be far smaller than a texel, and far larger than the rounding error of coordinates up to
+// `copies`.
 constexpr float origin_offset = 2e-5f;
 
 std::vector<Vec3> copy_offsets() {
@@ -70,7 +72,7 @@ void TiledScene::open_directions(const SurfaceHit& from, std::span<const Vec3> d
 
 namespace {
 
-// Turns z onto n (Duff et al. 2017).
+// Transforms d from a frame with the z axis n (Duff et al. 2017).
 Vec3 to_frame(Vec3 n, Vec3 d) {
   const float sign = std::copysign(1.0f, n.z);
   const float a = -1 / (sign + n.z), b = n.x * n.y * a;
@@ -97,7 +99,8 @@ class Reflection {
   Vec3 towards(Vec3 view, Vec3 light) const {
     if (microfacet_) return microfacet_reflection(point_, normal_, view, light);
     if (!(specular_ > 0)) return point_.diffuse;
-    // Blinn-Phong, (n + 8) / 8 so that the lobe's reflectance hardly depends on the exponent.
+    // Blinn-Phong, with the factor (n + 8) / 8, so that the lobe's reflectance hardly depends on the
+    // exponent.
     const float along = std::max(dot(normal_, normalised(light + view)), 0.0f);
     const float gloss = specular_ * (shininess_ + 8) / 8 * std::pow(along, shininess_);
     return point_.diffuse + Vec3{gloss, gloss, gloss};

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using tensor::Matrix;
 
-// Sums of the views' values, for their variance.
+// Sums of the views' values, from which their variance is computed.
 struct Spread {
   double sum = 0, squares = 0;
   int count = 0;
@@ -27,9 +27,9 @@ float level_height(float level) {
   return largest_height * (2 * level / (height_levels - 1) - 1);
 }
 
-// Returns the variance over views of what is seen at a texel if it had this height.
+// Returns the variance, over views, of the colours that would be seen at a texel if it had this height.
 float disagreement(const RawMaterial& raw, std::size_t texel, float height) {
-  constexpr float lowest_view = 0.6f;  // views beyond 53 degrees see too little of the same points
+  constexpr float lowest_view = 0.6f;  // views beyond 53 degrees see too few common points
   const float x = (float(texel / raw.height) + 0.5f) / float(raw.width),
               y = (float(texel % raw.height) + 0.5f) / float(raw.height);
   const std::size_t stride = std::max<std::size_t>(raw.lights.size() / 8, 1);
@@ -101,7 +101,8 @@ HeightRange range_of(const HeightMap& map) {
   return {*low, *high};
 }
 
-// Returns the steps of a march over the whole range of heights. A step is at most half a texel along the map.
+// Returns the number of steps for a march over the whole range of heights. A step is at most half a texel
+// along the map.
 int steps_of(const HeightMap& map, Vec3 direction, float depth) {
   const float along = depth * std::hypot(direction.x, direction.y) / direction.z;
   return std::clamp(int(2 * along * float(std::max(map.width, map.height))) + 4, 4, 256);

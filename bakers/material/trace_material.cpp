@@ -34,8 +34,8 @@ void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const
                       double(d.x), double(d.y), double(d.z));
 }
 
-// Checks the memory before it is taken, for the BTF and, at each vertex, for the light and rays of
-// inter-reflection.
+// Checks the needed memory before it is allocated. It is needed for the BTF and, per vertex, for the light
+// and the rays of inter-reflection.
 void check_memory(const TraceSettings& s, std::size_t lights, std::size_t views, std::size_t vertices) {
   constexpr double most_bytes = 16.0 * (1u << 30);
   const double btf = 3.0 * sizeof(float) * double(lights) * double(views) * s.width * s.height;
@@ -90,7 +90,7 @@ class Column {
     const auto inside = [this](std::uint32_t i) { return (float(i) + 0.5f) / float(samples_); };
     const Vec3 texel{(float(x) + inside(sample % samples_)) / float(raw_.width),
                      (float(y) + inside(sample / samples_)) / float(raw_.height), 0};
-    // Just above the top, so that a ray never starts inside the solid.
+    // Starts just above the top, so that a ray never starts inside the solid.
     const Vec3 start = texel + ((scene_.top() + 1e-3f) / view.z) * view;
     return scene_.nearest({start.x - std::floor(start.x), start.y - std::floor(start.y), start.z}, -view);
   }
@@ -103,7 +103,7 @@ class Column {
   std::uint32_t samples_;
 };
 
-// Returns the heights where vertical rays through the samples of a texel first meet the surface.
+// Returns the heights at which vertical rays through the samples of each texel first meet the surface.
 std::vector<float> heights_from_above(const TiledScene& scene, const TraceSettings& s) {
   const float start = scene.top() + 1e-3f;
   std::vector<float> heights(std::size_t(s.width) * s.height), coverage(heights.size());

@@ -11,8 +11,8 @@
 namespace nook::bake::material {
 namespace {
 
-// A curve that closes on the torus: point(1) - point(0) is a whole number of tiles along x and y, and it is
-// nowhere vertical.
+// A tube along a curve that closes on the torus: the end minus the start is a whole number of tiles along x
+// and y. The curve must not be vertical anywhere.
 struct Tube {
   std::function<Vec3(float t)> centre;                // t in [0, 1]
   std::function<float(float t, float angle)> radius;  // relative to the half axes; angle 0 points sideways
@@ -21,8 +21,8 @@ struct Tube {
   std::uint32_t segments = 64, sides = 12;
 };
 
-// The section stands upright, so that the frame closes with the curve; a transported frame would come back
-// twisted.
+// The cross-section is always upright, so that the frame at the end of the curve equals the frame at its
+// start. A parallel-transported frame would be twisted at the end.
 Vec3 surface_point(const Tube& tube, float t, float angle) {
   const float step = 0.25f / float(tube.segments);
   // Differences wrap at the ends, because the curve continues in the next tile.
@@ -38,7 +38,7 @@ Vec3 surface_point(const Tube& tube, float t, float angle) {
          (scale * tube.half_height * std::sin(angle)) * up;
 }
 
-// Appends the tube; its first and last rings coincide on the torus.
+// Appends the tube. Its first and its last ring coincide on the torus.
 void sweep(const Tube& tube, MesoSurface& surface) {
   const auto first = std::uint32_t(surface.position.size());
   const float turn = 2 * std::numbers::pi_v<float>;
@@ -78,7 +78,7 @@ MesoSurface make_fiber(const MesoParameters& p) {
   MesoSurface surface;
   surface.specular = 0.06f;
   surface.shininess = 24;
-  // Courses over the torus, as tiles along x and y until a fibre meets itself.
+  // Directions of fibres over the torus: the number of tiles along x and y until a fibre meets itself.
   constexpr int courses[][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 1}, {-1, 2}, {-2, 1}, {1, 2}};
   Random random(p.seed);
   for (std::uint32_t i = 0; i < p.count; ++i) {
@@ -86,7 +86,8 @@ MesoSurface make_fiber(const MesoParameters& p) {
     const float span = std::hypot(float(course[0]), float(course[1]));
     const Vec3 along = normalised({float(course[0]), float(course[1]), 0}), across{-along.y, along.x, 0};
     const Vec3 start{random.unit(), random.unit(), 0};
-    // Layers are even and courses are random, so that the mat has its height with any count.
+    // Layers are evenly spaced and directions are random, so that the mat has the same height for any number
+    // of fibres.
     const float layer = (float(i) + random.unit()) / float(p.count) - 0.5f;
     const float centre_height = (p.thickness - 2 * p.radius) * layer * 0.8f;
     Wave sideways[3], up[2];

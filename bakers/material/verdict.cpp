@@ -18,13 +18,13 @@ using tensor::Matrix;
 constexpr std::uint32_t trial_side = 24;
 constexpr std::size_t hold_every = 5, hold_first = 2;  // directions 2, 7, 12, ... are held out
 constexpr std::size_t fewest_directions = 10;
-// Steps of a degree along arcs through the hemisphere.
+// The view moves in steps of one degree along arcs through the hemisphere.
 constexpr int arcs = 6, arc_steps = 10;
 constexpr double degree = std::numbers::pi / 180;
 
-// Verdicts name what is above these bounds.
+// A verdict mentions values above these bounds.
 constexpr double many_negative = 0.05, large_step = 0.25;
-// About so many directions show the gloss of most materials.
+// About this many directions are enough to show the gloss of most materials.
 constexpr std::size_t enough_directions = 100;
 
 std::vector<std::size_t> indices(std::size_t count, bool held_out) {
@@ -40,7 +40,7 @@ std::vector<Vec3> chosen_of(const std::vector<Vec3>& all, const std::vector<std:
   return out;
 }
 
-// Returns the middle of a material in some of its views and lights, without its mask.
+// Returns the middle of a material in either the held-out or the other views and lights, without the mask.
 RawMaterial part_of(const RawMaterial& raw, bool held_out) {
   const std::vector<std::size_t> lights = indices(raw.lights.size(), held_out),
                                  views = indices(raw.views.size(), held_out);
@@ -63,7 +63,7 @@ RawMaterial part_of(const RawMaterial& raw, bool held_out) {
   return part;
 }
 
-// Returns a rank that keeps its share of a mode that has become smaller.
+// Scales a rank in proportion to a mode that has become smaller.
 std::uint32_t scaled(std::uint32_t rank, std::size_t size, std::size_t whole) {
   const double share = double(size) / double(whole);
   return std::clamp(std::uint32_t(std::ceil(double(rank) * share)), 1u, std::uint32_t(size));
@@ -79,7 +79,7 @@ CompressionSettings trial_settings(CompressionSettings s, const RawMaterial& raw
     s.rank_view = std::min(s.rank_view, std::uint32_t(part.views.size()));
     return s;
   }
-  // All clusters together have at most as many modes as there are views.
+  // The total rank of all clusters is at most the number of views.
   const auto views = std::uint32_t(part.views.size());
   s.cluster_rank_view = std::min(s.cluster_rank_view, views);
   s.clusters =
@@ -100,7 +100,7 @@ double negative_share(const Material& seen, double rms) {
   return all > 0 ? double(negative) / double(all) : 0;
 }
 
-// Views along an arc, a degree apart, which crosses the hemisphere at another place for each number.
+// Returns views that are one degree apart on an arc over the hemisphere. Each `number` gives another arc.
 std::vector<Vec3> arc_of(int number) {
   const double azimuth = 2 * std::numbers::pi * number / arcs, first = 5 + 8 * number;
   std::vector<Vec3> views;
@@ -142,7 +142,7 @@ std::string number(const char* format, double value) {
   return text;
 }
 
-// What helps a material whose unseen views are wrong.
+// Returns advice for a material with wrong colours in unseen views.
 std::string cure(const RawMaterial& raw) {
   const std::size_t directions = std::min(raw.lights.size(), raw.views.size());
   std::string text = "this material needs ";

@@ -18,7 +18,8 @@ double radial(ParabolicPoint a, ParabolicPoint b) {
   return square > 0 ? square * std::log(square) : 0;
 }
 
-// Returns the number of terms of the linear part, which needs points that span a plane.
+// Returns the number of terms of the linear part of the spline. The full linear part needs points that span a
+// plane.
 Index linear_terms(std::size_t points) {
   return points >= 3 ? 3 : 1;
 }
@@ -37,8 +38,8 @@ tensor::Matrix spline_weights(const std::vector<Vec3>& views, const std::vector<
     points.push_back(nook::material::to_parabolic(v));
     rim = std::max(rim, std::hypot(points.back().x, points.back().y));
   }
-  // [K P; P^T 0] maps spline coefficients to values at the views; a row of weights is a row of its basis
-  // times the inverse's columns that belong to the values.
+  // [K P; P^T 0] maps spline coefficients to values at the views. A row of weights is a row of the spline
+  // basis times those columns of the inverse that belong to the values.
   const auto n = Index(views.size()), terms = linear_terms(views.size());
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + terms, n + terms);
   for (Index i = 0; i < n; ++i) {

@@ -12,7 +12,8 @@ namespace {
 constexpr float far_away = 1e12f;
 
 // Computes squared distances to the lower envelope of the parabolas f(q) + (p - q)^2 (Felzenszwalb and
-// Huttenlocher 2012). It works on three periods, so that the middle one sees its neighbours.
+// Huttenlocher 2012). The line is extended to three periods, so that the middle period has neighbours on both
+// sides.
 void transform_line(const float* f, std::size_t n, std::size_t stride, float* out, std::vector<double>& bound,
                     std::vector<int>& parabola) {
   const int size = int(3 * n);
@@ -44,8 +45,8 @@ void transform_line(const float* f, std::size_t n, std::size_t stride, float* ou
   }
 }
 
-// Returns the squared distance, in texels, from each texel to the nearest of a class; far_away if there is
-// none.
+// For each texel, returns the squared distance, in texels, to the nearest texel of a class. Returns far_away
+// if the class is empty.
 std::vector<float> squared_distances(std::span<const float> mask, std::size_t width, std::size_t height,
                                      bool visible) {
   std::vector<float> d(mask.size()), out(mask.size());
@@ -73,7 +74,7 @@ std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t 
     const auto to_hidden = squared_distances(mask, width, height, false);
     for (std::size_t i = 0; i < texels; ++i) {
       const bool visible = mask[i] > 0.5f;
-      // The boundary lies half a texel before the other class's nearest centre.
+      // The boundary is half a texel before the nearest texel centre of the other class.
       const float d = std::sqrt(visible ? to_hidden[i] : to_visible[i]) - 0.5f;
       distance[view * texels + i] = saturated_distance(visible ? d : -d, std::max(width, height));
     }

@@ -27,8 +27,8 @@ IrradianceBands direct_irradiance(Vec3 normal, const nook::transfer::CubeCells& 
                                   std::span<const VisibleDirection> visible);
 
 // Returns the irradiance that a vertex receives from surfaces. The irradiance of these surfaces at their
-// vertices is `before`. They reflect all of it diffusely, only on the side of their normals. The calling
-// thread must have a FlushDenormals.
+// vertices is `before`. The surfaces reflect all of it diffusely, and only on the side that their normals are
+// on. The calling thread must have a FlushDenormals.
 IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t vertex,
                                      std::span<const IrradianceBands> before);
 

@@ -17,10 +17,10 @@ struct BakeSettings {
   // Rays go through the centres of the cells of a cube with side x side cells per face. The paper uses 32,
   // which is 6,144 rays per vertex. Half of them are below the vertex's horizon.
   std::uint32_t side = 32;
-  // The number of reflections of the shape onto itself, up to max_bounces. Reflected light is gathered
+  // How often light is reflected from the shape onto itself, up to max_bounces. Reflected light is gathered
   // through the same cells.
   std::uint32_t bounces = 0;
-  // The holes of the shape's material, with `tiles` tiles in one unit of texture coordinates. If null,
+  // The holes of the shape's material. There are `tiles` tiles in one unit of texture coordinates. If null,
   // surfaces have no holes.
   std::shared_ptr<const HoleTable> holes = nullptr;
   float tiles = 1;

@@ -1,5 +1,5 @@
-// A number with its derivatives with respect to the eight parameters of a capsule. With this type, forward
-// differentiation can use the same formulas as the runtime.
+// A Dual stores a number and its derivatives with respect to the eight parameters of a capsule. With this
+// type, forward differentiation can use the same formulas as the runtime.
 #pragma once
 
 #include <array>

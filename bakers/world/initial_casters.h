@@ -21,9 +21,10 @@ SkinnedMesh refined(const SkinnedMesh& mesh);
 // caps end where the vertices end.
 std::vector<WorldCaster> bone_capsules(const SkinnedMesh& mesh, std::span<const float> vertex_area);
 
-// Makes exactly `count` capsules, or as many as the vertices allow. If there are too many bones, those with
-// little area are merged with their parents. If there are too few capsules, the one with the largest misfit
-// is cut in two across its longest axis, as often as needed.
+// Makes exactly `count` capsules, or as many as the vertices allow. Bones with little area are merged with
+// their parents. If there are still too many bones, those with the least area are merged too. If there are
+// too few capsules, the one with the largest misfit is cut in two across its longest axis, as often as
+// needed.
 std::vector<WorldCaster> initial_casters(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                          std::size_t count);
 
