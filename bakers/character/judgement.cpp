@@ -346,9 +346,10 @@ std::string number(double value) {
 }
 
 std::string figures(const Judgement& j) {
-  std::string text = "error " + number(j.over_static()) + " of a static bake's (" +
+  std::string text = "error " + number(j.over_static()) + " of a static bake's error (" +
                      number(j.errors.by_area.over_static()) + " by area), " + number(j.over_oracle()) +
-                     " of the best static bake's, on " + std::to_string(j.poses) + " " + text_of(j.source);
+                     " of the best static bake's error, on " + std::to_string(j.poses) + " " +
+                     text_of(j.source);
   if (!j.clips.empty())
     text += "; worst clip " + j.clips.front().name + " with " + number(j.clips.front().error.over_static());
   return text;

@@ -144,8 +144,9 @@ void add_evaluate_nnao(Command evaluate_command) {
                   "default, best and oracle, and nnao_file with --network")
       .delimiter(',')
       .check([names](const std::string& text) { return one_of(names)(text.substr(0, text.find(':'))); });
-  command.add_input("--network", o.network,
-                    "also draw with this network, a file that `nook train nnao` wrote; its row is nnao_file");
+  command.add_input(
+      "--network", o.network,
+      "also draw with this network, a file that `nook train nnao` wrote; the report calls it nnao_file");
   command.add_option("--images", o.images, "write pictures of each frame into this folder");
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -174,8 +174,8 @@ bool explain_by_place(const PosedPoints& points, PoseFinding& finding) {
   } else if (is_mirrored) {
     explain(
         finding, NOOK_POSE_FAULT_PLACE,
-        "the pose is a mirror image of the vertices%s: one of them is left-handed; put the mirroring into "
-        "desc.place_3x4 of the pose as well",
+        "the pose is a mirror image of the vertices%s: one of the two is left-handed; mirror desc.place_3x4 "
+        "of the pose in the same way",
         axis);
   } else {
     explain(finding, NOOK_POSE_FAULT_PLACE,

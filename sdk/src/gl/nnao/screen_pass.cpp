@@ -35,7 +35,7 @@ void ScreenPass::check_size() const {
   if (desc_.max_width > largest || desc_.max_height > largest)
     throw Failure(
         NOOK_ERROR_UNSUPPORTED,
-        "desc.max_width x desc.max_height is larger than this OpenGL's textures (got %d x %d, need at "
+        "desc.max_width x desc.max_height exceeds the largest texture of this OpenGL (got %d x %d, need at "
         "most %d x %d)",
         desc_.max_width, desc_.max_height, largest, largest);
 }
