@@ -1,5 +1,8 @@
 // Prints the CPU time that all of Nook's calls of a frame take for each instance of a crowd. OpenGL is a
-// stub, and poses come from the CPU, then from the GPU. Usage: nook_gpu_poses_bench [instances].
+// stub. Poses come from the CPU, then from the GPU, then from clips. For clips it also prints the times of
+// nook_scene_set_clips and of nook_scene_set_clip alone.
+// Usage: nook_gpu_poses_bench [instances] [clips]. With "clips" it leaves out the other poses.
+#include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_gl_poses.h>
 #include <time.h>
@@ -9,8 +12,10 @@
 #include <cstdio>
 #include <cstdlib>
 #include <functional>
+#include <string_view>
 #include <vector>
 
+#include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/model_file.h"
 #include "tests/bench/gl_stub.h"
 #include "tests/bench/sample_character.h"
@@ -49,6 +54,44 @@ double median_seconds(const Frame& frame) {
   }
   std::nth_element(seconds.begin(), seconds.begin() + timed / 2, seconds.end());
   return seconds[timed / 2];
+}
+
+// A clip of one second whose frames are sample poses. Each frame has a mode of its own, so that there are as
+// many modes as real clips have.
+ClipSet sample_clip(const CharacterModel& model) {
+  constexpr std::uint32_t frames = 31, ao_modes = 16;
+  ClipSet set;
+  ClipRange& clip = set.clips.emplace_back();
+  clip.name = "walk";
+  clip.duration_s = 1;
+  clip.frame_count = set.frame_count = frames;
+  set.model_hash = clip_model_hash(model);
+  set.ao.rows = static_cast<std::uint32_t>(model.vertex_count());
+  set.ao.modes = ao_modes;
+  set.ao.mode.resize(std::size_t{ao_modes} * set.ao.rows, 1);
+  set.ao.weight.resize(std::size_t{ao_modes} * frames, 1000);
+  set.ao.scale.resize(ao_modes, 0.1f);
+  const auto bones = static_cast<std::uint32_t>(model.bone_count());
+  set.bones.resize(bones, BoneSpan{{0, 1, 0}, 0.2f});
+  set.pose.rows = pose_rows_per_bone * bones;
+  set.pose.modes = frames;
+  set.pose.scale.resize(frames, 4);
+  set.pose.weight.resize(std::size_t{frames} * frames, 0);
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    set.pose.weight[f * frames + f] = 32767;
+    for (const Mat3x4& bone : bench::sample_pose(bones, f + 1)) {
+      const BoneSpan& span = set.bones[0];
+      float rows[pose_rows_per_bone];
+      for (int i = 0; i < 9; ++i) rows[i] = span.radius * bone.m[4 * (i / 3) + i % 3];
+      const Vec3 centre = transform_point(bone, span.centre);
+      rows[9] = centre.x;
+      rows[10] = centre.y;
+      rows[11] = centre.z;
+      for (const float row : rows)
+        set.pose.mode.push_back(static_cast<std::int16_t>(std::lround(row / 4 * 32767)));
+    }
+  }
+  return set;
 }
 
 // This crowd stands on a square, 2 m apart, and has one model.
@@ -91,6 +134,24 @@ class Stage {
                 need_ok(nook_scene_set_pose(scene_, ids_[i], &desc));
               }
               need_ok(nook_gl_scene_update(gl_, scene_));
+            }};
+  }
+
+  Frame clips_frame(nook_clips clips) {
+    return {[this](int number) { play(number); },
+            [this, clips] {
+              set_clips(clips);
+              need_ok(nook_gl_scene_update(gl_, scene_));
+            }};
+  }
+  Frame set_clips_alone(nook_clips clips) {
+    return {[this](int number) { play(number); }, [this, clips] { set_clips(clips); }};
+  }
+  Frame set_each_clip(nook_clips clips) {
+    return {[this](int number) { play(number); },
+            [this, clips] {
+              for (const nook_instance_clip& one : playing_)
+                need_ok(nook_scene_set_clip(scene_, one.instance, clips, &one.time, one.place_3x4));
             }};
   }
 
@@ -161,6 +222,21 @@ class Stage {
     }
   }
 
+  void play(int number) {
+    playing_.resize(ids_.size());
+    for (std::size_t i = 0; i < ids_.size(); ++i) {
+      const Vec3 place = place_of(i);
+      const double seconds = 0.016 * number + 0.37 * static_cast<double>(i);
+      playing_[i] = {
+          ids_[i], 0, {0, NOOK_CLIP_LOOP, seconds}, {1, 0, 0, place.x, 0, 1, 0, 0, 0, 0, 1, place.z}};
+    }
+  }
+
+  void set_clips(nook_clips clips) {
+    need_ok(
+        nook_scene_set_clips(scene_, clips, playing_.data(), static_cast<std::uint32_t>(playing_.size())));
+  }
+
   std::uint32_t bones_, side_ = 1;
   nook_scene scene_ = nullptr;
   nook_gl gl_ = nullptr;
@@ -168,6 +244,7 @@ class Stage {
   std::vector<std::vector<Mat3x4>> bodies_;
   std::vector<Mat3x4> transforms_;
   std::vector<nook_gl_instance_pose> instances_;
+  std::vector<nook_instance_clip> playing_;
   float radius_ = 1;
 };
 
@@ -175,25 +252,38 @@ class Stage {
 
 int main(int argc, char** argv) {
   const auto count = static_cast<std::uint32_t>(argc > 1 ? std::atoi(argv[1]) : 10000);
+  const bool only_clips = argc > 2 && std::string_view(argv[2]) == "clips";
   nook_context context = nullptr;
   nook_context_desc desc;
   need_ok(nook_context_desc_init(&desc));
   need_ok(nook_context_create(&desc, &context));
   const CharacterModel character = bench::sample_model();
-  const std::vector<std::byte> bytes = write_character_model(character);
+  const std::vector<std::byte> bytes = write_character_model(character),
+                               clip_bytes = write_clip_set(sample_clip(character));
   nook_model model = nullptr;
   need_ok(nook_model_load(context, bytes.data(), bytes.size(), &model));
+  nook_clips clips = nullptr;
+  need_ok(nook_clips_load(context, model, clip_bytes.data(), clip_bytes.size(), &clips));
   const auto bones = static_cast<std::uint32_t>(character.bone_count());
   std::printf("%u instances of %u bones; CPU time of a frame in µs for each instance\n", count, bones);
-  std::printf("neighbours   CPU poses   GPU poses   ratio\n");
+  if (!only_clips) std::printf("neighbours   CPU poses   GPU poses   ratio   clips   ratio\n");
   for (const std::uint32_t neighbours : {0u, 4u}) {
+    if (only_clips) break;
     Stage stage(context, model, bones, count, neighbours);
     const double cpu = median_seconds(stage.cpu_frame());
     stage.measure_bodies();
-    const double gpu = median_seconds(stage.gpu_frame());
-    std::printf("%10u   %9.3f   %9.3f   %5.3f\n", neighbours, 1e6 * cpu / count, 1e6 * gpu / count,
-                gpu / cpu);
+    const double gpu = median_seconds(stage.gpu_frame()), played = median_seconds(stage.clips_frame(clips));
+    std::printf("%10u   %9.3f   %9.3f   %5.3f   %5.3f   %5.3f\n", neighbours, 1e6 * cpu / count,
+                1e6 * gpu / count, gpu / cpu, 1e6 * played / count, played / cpu);
   }
+  {
+    Stage stage(context, model, bones, count, 0);
+    const double all = median_seconds(stage.set_clips_alone(clips)),
+                 each = median_seconds(stage.set_each_clip(clips));
+    std::printf("nook_scene_set_clips %.2f ms, nook_scene_set_clip of each instance %.0f ms\n", 1e3 * all,
+                1e3 * each);
+  }
+  nook_clips_destroy(&clips);
   nook_model_destroy(&model);
   nook_context_destroy(&context);
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <string>
 
+#include "sdk/src/character/bone_axes.h"
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/host_vertices.h"
 #include "sdk/src/character/instance_light.h"
@@ -252,4 +253,40 @@ TEST_CASE(
   CharacterModel reversed = plain;
   std::reverse(reversed.rest.position.begin(), reversed.rest.position.end());
   CHECK_THROWS_AS(load_clips(set, load(reversed)), Failure);
+}
+
+TEST_CASE("the bound of a mix of frames holds the body, and in a frame it is the bound of its bones") {
+  const CharacterModel plain = sample_model();
+  const auto model = load(plain);
+  // Random frames turn bones by up to half a turn between two, which is more than any clip does.
+  for (const std::uint32_t seed : {1u, 2u, 3u, 4u}) {
+    const ClipSample sample = sample_clips(plain, seed);
+    const auto clips = load_clips(sample.set, model);
+    for (int step = 0; step <= 80; ++step) {
+      const FrameMix mix = frame_mix(sample.set.clips[1], 2.0 * step / 80, false);
+      const PoseBound bound = bound_of_mix(*clips, mix);
+      std::vector<Mat3x4> bones(plain.bone_count());
+      float longest_squared = 0;
+      for (std::size_t b = 0; b < bones.size(); ++b) {
+        bones[b] = decode_bone(sample.set, mix, Mat3x4{}, b);
+        longest_squared = std::max(longest_squared, axes_of(bones[b]).longest_squared);
+      }
+      const PoseBound of_bones = bound_of_bones(*model, bones, longest_squared);
+      INFO("seed " << seed << ", step " << step << ", share " << mix.share);
+      CHECK(bound.scale >= of_bones.scale - rounding);
+      float farthest = 0;
+      for (std::size_t b = 0; b < bones.size(); ++b) {
+        const LoadedModel::BoneBound& part = model->bone_bounds[b];
+        if (part.radius < 0) continue;
+        const float scale = std::sqrt(axes_of(bones[b]).longest_squared);
+        farthest = std::max(
+            farthest, length(transform_point(bones[b], part.centre) - bound.centre) + scale * part.radius);
+      }
+      CHECK(bound.radius >= farthest - rounding);
+      if (mix.share > 0) continue;
+      CHECK(bound.centre == of_bones.centre);
+      CHECK(bound.radius == of_bones.radius);
+      CHECK(bound.scale == of_bones.scale);
+    }
+  }
 }

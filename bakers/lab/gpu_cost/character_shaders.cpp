@@ -63,6 +63,14 @@ std::vector<ShaderCase> character_shaders() {
       {{"bones of a thread", trips::bones_of_thread, {{"turns of an uneven bone", 0, {}}}}});
   add(Stage::compute, "pose_place.comp", "", "",
       {{"rows of a thread", trips::rows_of_bone * trips::bones_of_thread, {}}});
+  // A mix of two frames is close to a rotation, so that the general projection does not run.
+  add(Stage::compute, "clip_bones.comp", "", "",
+      {{"weights of a thread", trips::pose_modes / trips::group_size, {}},
+       {"bones of a thread",
+        trips::bones_of_thread,
+        {{"modes", trips::pose_modes, {}},
+         {"steps to a rotation", trips::steps_to_rotation, {}},
+         {"turns of an uneven bone", 0, {}}}}});
   add(Stage::compute, "spheres.comp");
   for (int form = 0; form < 3; ++form)
     for (const bool composed : {true, false}) {

@@ -4,6 +4,7 @@
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/gpu_pose.h"
 #include "sdk/src/character/pose_record.h"
+#include "sdk/src/character/scene_clips.h"
 #include "sdk/src/core/checks.h"
 
 using namespace nook;
@@ -12,8 +13,9 @@ nook_result nook_scene_record_pose(nook_scene scene, nook_instance_id instance, 
   return api::enter("nook_scene_record_pose", [&] {
     need(scene, "scene");
     need(size, "size");
-    const Instance& recorded = instance_of(scene->scene, instance);
+    Instance& recorded = instance_of(scene->scene, instance);
     need_cpu_pose(recorded);
+    decode_late_bones(recorded);
     const std::size_t room = *size;
     *size = pose_record_size(recorded.input.bones.size());
     if (!bytes) return;

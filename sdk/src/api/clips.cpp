@@ -1,4 +1,5 @@
 // Baked clips: loading, times, AO, poses and casters, and clips in scenes.
+#include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_stages.h>
 #include <nook/experimental/nook_world_sample.h>
 #include <nook/nook_clips.h>
@@ -15,6 +16,7 @@
 #include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/character/scene.h"
+#include "sdk/src/character/scene_clips.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/core/floats.h"
@@ -244,6 +246,17 @@ nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, noo
     const PoseNotes notes =
         set_clip(scene->scene, instance, Ref<const LoadedClips>::share(clips), mix, place_of(place_3x4));
     api::log_pose(*scene->context, instance_of(scene->scene, instance), notes);
+  });
+}
+
+nook_result nook_scene_set_clips(nook_scene scene, nook_clips clips, const nook_instance_clip* instances,
+                                 uint32_t count) {
+  return api::enter("nook_scene_set_clips", [&] {
+    need(scene, "scene");
+    need(clips, "clips");
+    if (count == 0) return;
+    need(instances, "instances");
+    set_clips(scene->scene, Ref<const LoadedClips>::share(clips), {instances, count});
   });
 }
 

@@ -4,6 +4,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
 #include "sdk/src/character/gpu_pose.h"
+#include "sdk/src/character/scene_clips.h"
 #include "sdk/src/character/scene_readings.h"
 #include "sdk/src/core/descriptors.h"
 
@@ -16,8 +17,7 @@ nook_result with_instance(const char* function, nook_scene scene, nook_instance_
                           Body&& body) noexcept {
   return api::enter(function, [&] {
     need(scene, "scene");
-    const Scene& found = scene->scene;
-    body(found, instance_of(found, instance));
+    body(scene->scene, instance_of(scene->scene, instance));
   });
 }
 
@@ -42,16 +42,18 @@ nook_result nook_scene_describe_instance(nook_scene scene, nook_instance_id inst
 
 nook_result nook_scene_read_spheres(nook_scene scene, nook_instance_id instance, nook_scene_sphere* out,
                                     uint32_t* count) {
-  return with_instance("nook_scene_read_spheres", scene, instance, [&](const Scene&, const Instance& i) {
+  return with_instance("nook_scene_read_spheres", scene, instance, [&](const Scene&, Instance& i) {
     need_cpu_pose(i);
+    decode_late_bones(i);
     if (wants_entries(out, count, sphere_count(i))) read_spheres(i, out);
   });
 }
 
 nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_id instance, nook_scene_key_point* out,
                                        uint32_t* count) {
-  return with_instance("nook_scene_read_key_points", scene, instance, [&](const Scene&, const Instance& i) {
+  return with_instance("nook_scene_read_key_points", scene, instance, [&](const Scene&, Instance& i) {
     need_cpu_pose(i);
+    decode_late_bones(i);
     if (wants_entries(out, count, key_point_count(i))) read_key_points(i, out);
   });
 }

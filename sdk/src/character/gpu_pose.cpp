@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "sdk/src/character/scene_clips.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook {
@@ -12,7 +13,7 @@ void take_gpu_pose(Scene& scene, Instance& instance, const GpuPose& pose) noexce
     input.is_posed_on_gpu = true;
     ++scene.posed_on_gpu;
     std::fill(input.uneven.begin(), input.uneven.end(), false);
-    input.clip.clips = {};
+    leave_clip(instance);
   }
   input.bound = pose.bound;
   input.scale = pose.largest_scale * InstanceInput::scale_margin;

@@ -5,9 +5,11 @@
 #include <cmath>
 #include <cstring>
 
+#include "sdk/src/character/bone_axes.h"
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/floats.h"
+#include "sdk/src/core/geometry.h"
 
 namespace nook {
 namespace {
@@ -79,6 +81,16 @@ float mixed_weight(const FrameTable<std::int16_t>& table, const FrameMix& mix, s
   return first + mix.share * (table.frame_weight(mix.second, k) - first);
 }
 
+// Returns the time modulo the duration, which is a float. The product of a float and a number of turns below
+// 2^21 has no rounding, so that the difference is what fmod gives, in a fraction of the time.
+double looped(double time, double duration) {
+  const double turns = std::floor(time / duration);
+  const double rest = time - turns * duration;
+  if (std::abs(turns) < double(1 << 21) && rest >= 0 && rest < duration) return rest;
+  const double left = std::fmod(time, duration);
+  return left < 0 ? left + duration : left;
+}
+
 }  // namespace
 
 FrameMix frame_mix(const ClipRange& clip, double time_s, bool is_looping) noexcept {
@@ -87,10 +99,7 @@ FrameMix frame_mix(const ClipRange& clip, double time_s, bool is_looping) noexce
   FrameMix mix{clip.first_frame, clip.first_frame, 0};
   if (last == 0 || !(duration > 0)) return mix;
   double time = time_s;
-  if (is_looping) {
-    time = std::fmod(time, duration);
-    if (time < 0) time += duration;
-  }
+  if (is_looping) time = looped(time, duration);
   const double place = std::clamp(time / duration, 0.0, 1.0) * last;
   const auto first = std::min(static_cast<std::uint32_t>(place), last - 1);
   mix.first += first;
@@ -99,11 +108,6 @@ FrameMix frame_mix(const ClipRange& clip, double time_s, bool is_looping) noexce
   if (mix.share >= 1) mix = {mix.second, mix.second, 0};
   return mix;
 }
-
-LoadedClips::LoadedClips(ClipSet loaded, Ref<const LoadedModel> of, Memory* memory)
-    : model(std::move(of)),
-      block_mode(in_blocks(checked(loaded, model->model), *model, memory)),
-      set(without_ao_modes(std::move(loaded))) {}
 
 void mix_ao_weights(const ClipSet& set, const FrameMix& mix, float* weights) noexcept {
   for (std::size_t k = 0; k < set.ao.modes; ++k) {
@@ -124,7 +128,10 @@ void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t fir
   for (std::uint32_t i = 0; i < count; ++i) ao[i] = std::min(std::max(ao[i], 0.0f), 1.0f);
 }
 
-Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place, std::size_t bone) noexcept {
+namespace {
+
+// Returns the sum of the modes, which is neither even nor at a place.
+Mat3x4 mixed_bone(const ClipSet& set, const FrameMix& mix, std::size_t bone) noexcept {
   constexpr float step = 1.0f / FrameTable<std::int16_t>::max_mode;
   std::array<float, pose_rows_per_bone> row{};
   const std::int16_t* mode = set.pose.mode.data() + bone * pose_rows_per_bone;
@@ -140,8 +147,98 @@ Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place,
   matrix.m[3] = row[9] - turned.x;
   matrix.m[7] = row[10] - turned.y;
   matrix.m[11] = row[11] - turned.z;
-  return place * evened(matrix, span.centre);
+  return matrix;
 }
+
+// The bones of a frame as the table has them, and even.
+struct FrameBones {
+  explicit FrameBones(std::size_t count, Memory* memory) : mixed(memory), even(memory) {
+    mixed.resize(count);
+    even.resize(count);
+  }
+  Vector<Mat3x4> mixed, even;
+};
+
+PoseBound decode_frame(const ClipSet& set, const LoadedModel& model, std::uint32_t frame, FrameBones& out) {
+  float longest_squared = 0;
+  bool is_usable = true;
+  for (std::size_t b = 0; b < out.even.size(); ++b) {
+    out.mixed[b] = mixed_bone(set, {frame, frame, 0}, b);
+    out.even[b] = evened(out.mixed[b], set.bones[b].centre);
+    is_usable = is_usable && is_pose_matrix(out.even[b]);
+    longest_squared = std::max(longest_squared, axes_of(out.even[b]).longest_squared);
+  }
+  if (!is_usable) return {{}, INFINITY, 1};
+  return bound_of_bones(model, {out.even.data(), out.even.size()}, longest_squared);
+}
+
+float swing_of(const ClipSet& set, const LoadedModel& model, const FrameBones& from, const FrameBones& to) {
+  float largest = 0;
+  for (std::size_t b = 0; b < model.bone_bounds.size(); ++b) {
+    const LoadedModel::BoneBound& bound = model.bone_bounds[b];
+    if (bound.radius < 0) continue;
+    Mat3x4 half;
+    for (int i = 0; i < 12; ++i) half.m[i] = 0.5f * (from.mixed[b].m[i] + to.mixed[b].m[i]);
+    const Vec3 at = transform_point(evened(half, set.bones[b].centre), bound.centre);
+    const Vec3 mean =
+        (transform_point(from.even[b], bound.centre) + transform_point(to.even[b], bound.centre)) * 0.5f;
+    largest = std::max(largest, length(at - mean));
+  }
+  return largest;
+}
+
+Vector<FrameBound> make_frame_bounds(const ClipSet& set, const LoadedModel& model, Memory* memory) {
+  Vector<FrameBound> out(memory);
+  out.resize(set.frame_count);
+  FrameBones earlier(set.bones.size(), memory), bones(set.bones.size(), memory);
+  for (const ClipRange& clip : set.clips)
+    for (std::uint32_t f = clip.first_frame; f < clip.first_frame + clip.frame_count; ++f) {
+      std::swap(earlier, bones);
+      out[f].bound = decode_frame(set, model, f, bones);
+      if (f > clip.first_frame) out[f - 1].swing = swing_of(set, model, earlier, bones);
+    }
+  return out;
+}
+
+}  // namespace
+
+Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place, std::size_t bone) noexcept {
+  return place * evened(mixed_bone(set, mix, bone), set.bones[bone].centre);
+}
+
+// A bone's rotation shrinks by at most 1 - c between two frames, where c is the cosine of half the angle. At
+// a share s this is 1 - sqrt(1 - 4 s (1 - s) (1 - c^2)), which is at most 4 s (1 - s) times its value at 1/2.
+// The rest of a bound is convex: no mix of two frames has more than the mix of their bounds.
+PoseBound bound_of_mix(const LoadedClips& clips, const FrameMix& mix) noexcept {
+  const FrameBound &first = clips.frame_bound[mix.first], &second = clips.frame_bound[mix.second];
+  const float s = mix.share;
+  const auto mixed = [s](auto a, auto b) { return a + (b - a) * s; };
+  return {mixed(first.bound.centre, second.bound.centre),
+          mixed(first.bound.radius, second.bound.radius) + 4 * s * (1 - s) * first.swing,
+          mixed(first.bound.scale, second.bound.scale)};
+}
+
+namespace {
+
+template <class Measure>
+float largest_of(const Vector<FrameBound>& frames, Measure&& measure) {
+  float largest = 0;
+  for (const FrameBound& frame : frames) largest = std::max(largest, measure(frame));
+  return largest;
+}
+
+}  // namespace
+
+LoadedClips::LoadedClips(ClipSet loaded, Ref<const LoadedModel> of, Memory* memory)
+    : model(std::move(of)),
+      block_mode(in_blocks(checked(loaded, model->model), *model, memory)),
+      set(without_ao_modes(std::move(loaded))),
+      frame_bound(make_frame_bounds(set, *model, memory)),
+      reach(largest_of(frame_bound,
+                       [](const FrameBound& frame) {
+                         return length(frame.bound.centre) + frame.bound.radius + frame.swing;
+                       })),
+      largest_scale(largest_of(frame_bound, [](const FrameBound& frame) { return frame.bound.scale; })) {}
 
 ClipTexels mode_texels(const LoadedClips& clips) {
   return {std::uint64_t(clips.model->model.file_to_welded.size()) * (clips.set.ao.modes / 4), 4};

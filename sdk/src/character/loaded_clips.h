@@ -6,6 +6,7 @@
 
 #include "sdk/src/character/clip_set.h"
 #include "sdk/src/character/loaded_model.h"
+#include "sdk/src/character/pose_bound.h"
 #include "sdk/src/core/ref.h"
 #include "shaders/core/texel_layout.h"
 
@@ -21,6 +22,14 @@ struct FrameMix {
 // duration, so its last frame should equal its first. Otherwise the time is clamped to the clip.
 FrameMix frame_mix(const ClipRange& clip, double time_s, bool is_looping) noexcept;
 
+// Where the body is in a frame, in the clip's space.
+struct FrameBound {
+  PoseBound bound;
+  // Halfway to the next frame of the clip, a bone is at most this far from the mean of its two places.
+  // Between two frames a bone moves on a line and turns, so that it leaves the line.
+  float swing = 0;  // metres
+};
+
 struct LoadedClips : RefCounted {
   // The set must have passed check_clip_set. Throws Failure(INVALID_ARGUMENT) if it belongs to another
   // character than the model.
@@ -34,6 +43,12 @@ struct LoadedClips : RefCounted {
   const AlignedArray<std::int8_t> block_mode;
 
   const ClipSet set;  // without the modes of AO, which are above
+
+  // For each frame, so that nobody needs the bones of a crowd on the CPU. A frame whose numbers are too large
+  // for a pose has an infinite radius.
+  const Vector<FrameBound> frame_bound;
+  const float reach;          // metres from the origin of the clip's space, of all frames
+  const float largest_scale;  // of all frames
 
   const std::int8_t* block_modes(std::uint32_t block) const {
     return block_mode.data() + std::size_t(block) * block_slots * set.ao.modes;
@@ -51,6 +66,10 @@ void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t fir
 // Returns the matrix of a bone in a mix of frames: the place times the map from rest space to the clip's
 // space. It is projected to the nearest rotation with one scale. Neither allocates nor throws.
 Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place, std::size_t bone) noexcept;
+
+// Returns a bound of the pose in a mix of frames, in the clip's space and in constant time. In a frame it is
+// the bound of the frame's bones.
+PoseBound bound_of_mix(const LoadedClips& clips, const FrameMix& mix) noexcept;
 
 // The tables of clips as texels of four numbers, for the textures that shaders/clips/host.glsl reads.
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/character/scene_clips.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook {
@@ -36,12 +37,14 @@ const KeyPoint& nearest_key_point(const CharacterModel& model, std::size_t verte
   return model.key_points[model.influence[best]];
 }
 
-Mat3x4 blended_bones(const KeyPoint& point, const Mat3x4* bones) {
+Mat3x4 blended_bones(const KeyPoint& point, const Instance& instance) {
   Mat3x4 sum;
   for (float& element : sum.m) element = 0;
-  for (int b = 0; b < KeyPoint::max_bones; ++b)
-    if (point.weight[b] > 0)
-      for (int i = 0; i < 12; ++i) sum.m[i] += point.weight[b] * bones[point.bone[b]].m[i];
+  for (int b = 0; b < KeyPoint::max_bones; ++b) {
+    if (!(point.weight[b] > 0)) continue;
+    const Mat3x4 bone = bone_of(instance, point.bone[b]);
+    for (int i = 0; i < 12; ++i) sum.m[i] += point.weight[b] * bone.m[i];
+  }
   return sum;
 }
 
@@ -78,14 +81,13 @@ void read_bent_normals(const Scene& scene, const Instance& instance, std::int8_t
                        std::size_t stride_bytes) noexcept {
   read_ao_as(scene, instance, NOOK_FORMAT_UNORM8, out + 3, stride_bytes);
   const CharacterModel& model = instance.model->model;
-  const Mat3x4* const bones = instance.input.bones.data();
   const KeyPoint* turned_by = nullptr;
   Mat3x4 turn;
   for (std::size_t i = 0; i < model.file_to_welded.size(); ++i) {
     const std::size_t vertex = model.file_to_welded[i];
     const KeyPoint& point = nearest_key_point(model, vertex);
     if (&point != turned_by) {
-      turn = blended_bones(point, bones);
+      turn = blended_bones(point, instance);
       turned_by = &point;
     }
     std::int8_t* const place = out + i * stride_bytes;

@@ -17,6 +17,7 @@
 #include "sdk/src/character/loaded_clips.h"
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/neighbours.h"
+#include "sdk/src/character/pose_bound.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/aligned_array.h"
 #include "sdk/src/core/containers.h"
@@ -108,40 +109,42 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory);
 
 // The clip that gives an instance its pose and its own AO.
 struct InstanceClip {
-  explicit InstanceClip(Memory* memory) : weights(memory) {}
-
   Ref<const LoadedClips> clips;  // null: the host sets the pose, and the model computes the self-shadow
-  Vector<float> weights;         // weights of the AO modes, at the clip time that the last set_clip gave
+  FrameMix mix;                  // the time of the last set_clip or set_clips
+  // True if InstanceInput::bones are of an earlier pose, because only set_clips gave this one. Then `place`
+  // is its place, and decode_late_bones makes the bones (scene_clips.h).
+  bool is_late = false;
+  Mat3x4 place;
+  std::uint64_t call = 0;  // Scene::clip_calls of the last set_clips that named the instance
   bool is_used() const { return bool(clips); }
 };
 
 // What the host set for an instance, and values that are derived from these settings alone.
 struct InstanceInput {
-  explicit InstanceInput(Memory* memory)
-      : bones(memory), uneven(memory), linked(memory), receivers(memory), clip(memory) {}
+  explicit InstanceInput(Memory* memory) : bones(memory), uneven(memory), linked(memory), receivers(memory) {}
 
-  Vector<Mat3x4> bones;             // rest space to world, one for each bone of the model
+  // These come first and together, because set_clips writes them for whole crowds.
   std::uint64_t pose_revision = 0;  // incremented by every set_pose; never 0 for an instance in use
-  bool is_posed_on_gpu = false;     // the current pose is only on the GPU, and `bones` holds an earlier one
-                                    // (gpu_pose.h)
-  UnevenBones uneven;               // of the current pose
-  std::uint32_t reported = 0;       // bits of the PoseNotes topics that were already logged for this instance
+  // `bound` contains all key points and proxy spheres of the pose. Its centre is the model's bounding centre,
+  // transformed by the root bone. `scale` is an upper bound of the bones' scales.
+  Sphere bound;
+  float scale = 1;
+  // True if the current pose is only on the GPU, and `bones` holds an earlier one (gpu_pose.h).
+  bool is_posed_on_gpu = false;
+  InstanceClip clip;
+
+  Vector<Mat3x4> bones;        // rest space to world, one for each bone of the model
+  UnevenBones uneven;          // of the current pose
+  std::uint32_t reported = 0;  // bits of the PoseNotes topics that were already logged for this instance
   bool has_ground = false;
   Plane ground;
   Vector<std::uint32_t> linked;  // slots of the casters that the host linked, ascending
   // Slots of the instances that have this instance in `linked`, ascending. When this instance is removed, it
   // must be unlinked from them.
   Vector<std::uint32_t> receivers;
-  InstanceClip clip;
-  // `bound` contains all key points and proxy spheres of the pose. Its centre is the model's bounding centre,
-  // transformed by the root bone. `scale` is an upper bound of the bones' scales.
-  Sphere bound;
-  float scale = 1;
   // Returns the largest scale of the bones. It is also the scale of the whole body.
   float largest_scale() const { return scale / scale_margin; }
-  // Bone matrices may be slightly uneven and sheared (BoneAxes::is_even). Such a matrix can stretch a vector
-  // by almost 2 % more than its longest axis.
-  static constexpr float scale_margin = 1.02f;
+  static constexpr float scale_margin = bone_scale_margin;
 };
 
 // The ground is evaluated as a huge sphere. This is its radius, divided by the bounding radius of the body.
@@ -241,6 +244,9 @@ struct Scene {
   std::uint32_t posed_on_gpu = 0;  // instances whose pose is on the GPU
   // Incremented when an instance or occluder is added or removed, and when an instance gets its first light.
   std::uint64_t structure_revision = 0;
+  std::uint64_t clip_calls = 0;  // of set_clips
+  // Rises when set_clips gives an instance other clips than it had, so that a GPU may need their tables.
+  std::uint64_t clips_revision = 0;
 
   std::uint32_t nearest = 0;       // k of link_nearest; 0: off
   float nearest_max_distance = 0;  // metres

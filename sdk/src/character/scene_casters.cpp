@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/character/scene_clips.h"
 
 namespace nook {
 
@@ -22,7 +23,7 @@ void pose_world_casters(Instance& instance) noexcept {
   Vec3 sum;
   for (std::size_t i = 0; i < of_model.size(); ++i) {
     const WorldCaster& caster = of_model[i];
-    const Mat3x4& bone = instance.input.bones[caster.bone];
+    const Mat3x4 bone = bone_of(instance, caster.bone);
     const float scale = length({bone.m[0], bone.m[4], bone.m[8]});
     PosedCaster& posed = casters.posed[i];
     posed.capsule = {transform_point(bone, caster.capsule.a), transform_point(bone, caster.capsule.b),

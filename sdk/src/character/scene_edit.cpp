@@ -4,7 +4,9 @@
 
 #include "sdk/src/character/bone_axes.h"
 #include "sdk/src/character/gpu_pose.h"
+#include "sdk/src/character/pose_bound.h"
 #include "sdk/src/character/scene.h"
+#include "sdk/src/character/scene_clips.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
@@ -44,20 +46,10 @@ Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bon
 }
 
 void derive_bound(Instance& instance, float largest_scale_squared) {
-  const LoadedModel& loaded = *instance.model;
-  const float stretch = std::sqrt(largest_scale_squared) * InstanceInput::scale_margin;
-  instance.input.bound.centre =
-      transform_point(instance.input.bones[loaded.model.root_bone], loaded.model.bounding_centre);
-  instance.input.bound.radius = 0;
-  for (std::size_t b = 0; b < loaded.bone_bounds.size(); ++b) {
-    const LoadedModel::BoneBound& bound = loaded.bone_bounds[b];
-    if (bound.radius < 0) continue;
-    const float reach =
-        length(transform_point(instance.input.bones[b], bound.centre) - instance.input.bound.centre) +
-        stretch * bound.radius;
-    instance.input.bound.radius = std::max(instance.input.bound.radius, reach);
-  }
-  instance.input.scale = stretch;
+  const PoseBound bound = bound_of_bones(
+      *instance.model, {instance.input.bones.data(), instance.input.bones.size()}, largest_scale_squared);
+  instance.input.bound = {bound.centre, bound.radius};
+  instance.input.scale = bound.scale;
 }
 
 std::uint32_t slot_of(const Scene& scene, const Instance& instance) {
@@ -235,7 +227,7 @@ PoseNotes set_bones(Instance& instance, std::span<const Mat3x4> bones, bool is_s
     check_size(model, b, bones[b]);
     if (is_strict && !axes_of(bones[b]).is_even()) fail_uneven(model, b, axes_of(to_double(bones[b])));
   }
-  instance.input.clip.clips = {};
+  leave_clip(instance);
   return take_pose(instance, bones);
 }
 
@@ -249,6 +241,7 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
                   "instance and add it with the new model",
                   model->model.bone_count(), instance.input.bones.size());
   need_cpu_pose(instance);
+  decode_late_bones(instance);
   InstanceArrays arrays = make_instance_arrays(*model, scene.memory);
   InstanceLight light = moved_light(instance.light, arrays.points, scene.memory);
   InstanceCasters casters(scene.memory);
@@ -256,7 +249,7 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
   instance.result.arrays = std::move(arrays);
   instance.light = std::move(light);
   // The clips belong to the old model. The instance keeps its pose until the host sets another one.
-  instance.input.clip.clips = {};
+  leave_clip(instance);
   instance.casters = std::move(casters);
   instance.model = std::move(model);
   float longest_squared = 0;
@@ -287,7 +280,10 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   check_pose_source(model, source);
   // The bones that a partial pose leaves out keep their matrices. With a pose on the GPU, these matrices
   // would be from an older pose.
-  if (source.is_partial) need_cpu_pose(instance);
+  if (source.is_partial) {
+    need_cpu_pose(instance);
+    decode_late_bones(instance);
+  }
   static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
   if (holds_bone_matrices(source)) {
     PoseNotes notes =
@@ -302,7 +298,7 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   std::copy(instance.input.bones.begin(), instance.input.bones.end(), converted.begin());
   std::copy(instance.input.uneven.begin(), instance.input.uneven.end(), scene.converted_uneven.begin());
   const PoseNotes notes = convert_pose(model, source, converted, &scene.converted_uneven);
-  instance.input.clip.clips = {};
+  leave_clip(instance);
   std::copy_n(scene.converted_uneven.begin(), converted.size(), instance.input.uneven.begin());
   float longest_squared = 0;
   for (std::size_t b = 0; b < converted.size(); ++b) {
@@ -330,8 +326,8 @@ PoseNotes set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> cli
     check_size(model, b, posed[b]);
   }
   InstanceClip& clip = instance.input.clip;
-  clip.weights.resize(clips->set.ao.modes);
-  mix_ao_weights(clips->set, mix, clip.weights.data());
+  clip.mix = mix;
+  clip.is_late = false;
   clip.clips = std::move(clips);
   take_pose(instance, posed);
   leave_gpu_pose(scene, instance);

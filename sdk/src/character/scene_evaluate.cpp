@@ -6,6 +6,7 @@
 
 #include "sdk/src/character/instance_views.h"
 #include "sdk/src/character/scene.h"
+#include "sdk/src/character/scene_clips.h"
 #include "sdk/src/core/floats.h"
 
 namespace nook {
@@ -170,6 +171,7 @@ void update(Scene& scene) noexcept {
   auto transform = [&](std::uint32_t slot) noexcept {
     Instance& instance = scene.instances[slot];
     if (instance.id == 0) return;
+    decode_late_bones(instance);
     transform_spheres(scene, instance);
     group_spheres(scene, instance);
     if (instance.plan.due) transform_key_points(scene, instance);
@@ -239,10 +241,18 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
   }
 }
 
-// Decodes the clip's AO into `own`, for the slots of the chunk.
-void decode_clip(const Instance& instance, const LinearView& chunk, std::uint32_t first_slot, ChunkAo& own) {
+// The weights of an instance's clip.
+using ClipWeights = std::array<float, ClipSet::max_ao_modes>;
+
+void mix_weights(const Instance& instance, Self self, ClipWeights& weights) {
   const InstanceClip& clip = instance.input.clip;
-  decode_ao(*clip.clips, clip.weights.data(), first_slot, chunk.block_count * linear_block_vertices,
+  if (self == Self::clip) mix_ao_weights(clip.clips->set, clip.mix, weights.data());
+}
+
+// Fills `own` for the slots of the chunk.
+void decode_clip(const Instance& instance, const ClipWeights& weights, const LinearView& chunk,
+                 std::uint32_t first_slot, ChunkAo& own) {
+  decode_ao(*instance.input.clip.clips, weights.data(), first_slot, chunk.block_count * linear_block_vertices,
             own.data());
 }
 
@@ -265,6 +275,8 @@ void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride
   const Self self = self_of(scene, instance);
   const PointLanes& points = instance.result.arrays.points;
   const PointCodes* const added = instance.result.has_added ? &points.added_codes : nullptr;
+  ClipWeights weights;
+  mix_weights(instance, self, weights);
   alignas(64) ChunkAo ao, own;
   alignas(64) std::array<Number, chunk_slots> numbers;
   for_each_chunk(
@@ -273,7 +285,7 @@ void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride
         scene.kernels->linear_layer(chunk, points.shadow_codes, added, ao.data());
         const std::uint32_t count = chunk.block_count * linear_block_vertices;
         if (self == Self::clip) {
-          decode_clip(instance, chunk, first_slot, own);
+          decode_clip(instance, weights, chunk, first_slot, own);
           for (std::uint32_t i = 0; i < count; ++i) ao[i] *= own[i];
         }
         for (std::uint32_t i = 0; i < count; ++i) numbers[i] = convert(ao[i]);
@@ -329,6 +341,8 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
   const bool composed = scene.settings.form == NOOK_FORM_DEFAULT;
   const Self self = self_of(scene, instance);
   alignas(64) std::array<ChunkAo, 3> ao;
+  ClipWeights weights;
+  mix_weights(instance, self, weights);
   alignas(64) ChunkAo own;
   float* const rgb[] = {ao[0].data(), ao[1].data(), ao[2].data()};
   for_each_chunk(
@@ -337,7 +351,7 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
         scene.kernels->directional_linear_layer(chunk, instance.result.arrays.points.shadow, light.shadow,
                                                 composed ? light.added : nullptr, rgb);
         if (self != Self::clip) return;
-        decode_clip(instance, chunk, first_slot, own);
+        decode_clip(instance, weights, chunk, first_slot, own);
         for (ChunkAo& channel : ao)
           for (std::uint32_t i = 0; i < chunk.block_count * linear_block_vertices; ++i) channel[i] *= own[i];
       },

@@ -1,3 +1,4 @@
+#include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_gl_poses.h>
 #include <nook/nook_gl.h>
@@ -41,6 +42,12 @@ NOOK_AT(nook_gl_view, count, 20);
 NOOK_AT(nook_gl_view, texture, 24);
 NOOK_AT(nook_gl_view, light, 28);
 NOOK_AT(nook_gl_view, glsl, 32);
+
+NOOK_SIZE(nook_instance_clip, 72);
+NOOK_AT(nook_instance_clip, instance, 0);
+NOOK_AT(nook_instance_clip, reserved, 4);
+NOOK_AT(nook_instance_clip, time, 8);
+NOOK_AT(nook_instance_clip, place_3x4, 24);
 
 NOOK_SIZE(nook_gl_instance_pose, 76);
 NOOK_AT(nook_gl_instance_pose, instance, 0);

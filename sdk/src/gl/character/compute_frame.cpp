@@ -47,8 +47,7 @@ std::uint64_t aligned(const Device& device, std::uint64_t offset) {
 void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t casters, std::uint64_t lights) {
   ComputeChunk::Frame& frame = chunk.frame;
   const std::uint64_t bones = std::uint64_t{frame.selected} * NOOK_RECORD_UVEC4S;
-  const std::uint64_t first_caster =
-      bones + std::uint64_t{frame.selected} * chunk.model->bones() * NOOK_BONE_ROWS;
+  const std::uint64_t first_caster = bones + std::uint64_t{frame.selected} * chunk.model->bone_uvec4s();
   const std::uint64_t first_light = first_caster + casters;
   frame.bytes = (first_light + lights) * sizeof(Word4);
   if (frame.bytes > device.max_piece_bytes)
@@ -88,6 +87,7 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
         need_pose(chunk, placed.placements[slot], instance);
         ++frame.posed;
       }
+      frame.late += instance.input.clip.is_late;
       if (!instance.plan.due) return;
       ++frame.due;
       frame.lit += instance.light.count > 0;
@@ -112,6 +112,19 @@ void write_pose(const Instance& instance, Mat3x4* out) {
     relative.m[11] -= from.z;
     std::memcpy(out++, &relative, sizeof relative);
   }
+}
+
+// Writes what clip_bones.comp makes the bones from.
+void write_clip(const Instance& instance, Word4* at) {
+  const InstanceClip& clip = instance.input.clip;
+  const Vec3 from = origin(instance);
+  Mat3x4 relative = clip.place;
+  relative.m[3] -= from.x;
+  relative.m[7] -= from.y;
+  relative.m[11] -= from.z;
+  const Word4 frames{clip.mix.first, clip.mix.second, bit_cast<std::uint32_t>(clip.mix.share), 0};
+  std::memcpy(static_cast<void*>(at), relative.m, sizeof relative.m);
+  std::memcpy(static_cast<void*>(at + NOOK_BONE_ROWS), &frames, sizeof frames);
 }
 
 Word4 exact_sphere(const Instance& receiver, const Sphere& sphere) {
@@ -153,11 +166,13 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
   for_selected(scene, chunk, [&](std::uint32_t slot) {
     const Instance& instance = scene.instances[slot];
     InstanceRecord record{};
-    record.first_bone = frame.bones + written * chunk.model->bones() * NOOK_BONE_ROWS;
+    record.first_bone = frame.bones + written * chunk.model->bone_uvec4s();
     record.first_sphere = first_sphere(placed, slot);
     record.place = placed.placements[slot].place |
                    (has_self_shadow(scene, instance) ? NOOK_RECORD_SELF : 0u) |
                    (instance.input.is_posed_on_gpu ? NOOK_RECORD_POSED : 0u);
+    if (instance.input.clip.is_late)
+      record.place |= placed.number_of_clips(instance) << NOOK_RECORD_CLIPS_SHIFT;
     if (instance.plan.due) {
       write_casters(placed, instance, piece, next_caster, record);
       if (instance.light.count > 0) {
@@ -166,8 +181,10 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
         next_light += light_texels(instance.light);
       }
     }
-    // pose_place.comp writes the others.
-    if (!instance.input.is_posed_on_gpu)
+    // Shaders write the bones of the others.
+    if (instance.input.clip.is_late)
+      write_clip(instance, piece + record.first_bone);
+    else if (!instance.input.is_posed_on_gpu)
       write_pose(instance, reinterpret_cast<Mat3x4*>(piece + record.first_bone));
     // Mapped memory is written once, never read.
     std::memcpy(static_cast<void*>(piece + NOOK_RECORD_UVEC4S * written++), &record, sizeof record);

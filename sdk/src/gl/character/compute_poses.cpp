@@ -1,6 +1,7 @@
 // The part of the compute tier that takes poses from the host's buffer.
 #include <cstring>
 
+#include "sdk/src/character/scene_clips.h"
 #include "sdk/src/core/affine.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/gl/character/compute_tier.h"
@@ -205,6 +206,9 @@ void ComputeTier::set_poses(Scene& scene, const PoseBatch& batch) {
   ComputeScene& placed = *placed_scene(scenes_, scene);
   const PoseWindows windows(device_, batch);
   count_poses(scene, placed, batch);
+  if (batch.source.is_partial)
+    for (const nook_gl_instance_pose& pose : batch.instances)
+      decode_late_bones(instance_of(scene, pose.instance));
   make_pose_objects(placed);
   placed.jobs.write(lay_out_jobs(device_, placed), [&](void* memory) {
     write_jobs(scene, placed, batch, windows, static_cast<std::byte*>(memory));

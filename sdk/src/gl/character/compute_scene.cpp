@@ -98,7 +98,7 @@ std::uint32_t ComputeModel::shadows() const {
 std::uint64_t ComputeModel::largest_share() const {
   return std::max({std::uint64_t{file_vertices()} * 3 * sizeof(float),
                    std::uint64_t{shadows()} * NOOK_COLOUR_VEC4S * 4 * sizeof(float),
-                   std::uint64_t{bones()} * sizeof(Mat3x4) + NOOK_RECORD_UVEC4S * 4 * sizeof(std::uint32_t)});
+                   (std::uint64_t{bone_uvec4s()} + NOOK_RECORD_UVEC4S) * 4 * sizeof(std::uint32_t)});
 }
 
 ComputeModel::ComputeModel(Device& device, Ref<const LoadedModel> loaded)
@@ -144,7 +144,8 @@ ComputeChunk::ComputeChunk(Device& device, ComputeModel& for_model, std::uint32_
 
 ComputeScene::ComputeScene(Device& device, const Scene& of)
     : PlacedScene(of, device.memory),
-      stream(device, "nook: poses and casters", 4096, nullptr, GL_STREAM_DRAW) {}
+      stream(device, "nook: poses and casters", 4096, nullptr, GL_STREAM_DRAW),
+      clips(device.memory) {}
 
 void ComputeScene::make_buffers(Device& device) {
   make_sphere_buffers(device);

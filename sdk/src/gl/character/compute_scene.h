@@ -17,6 +17,20 @@ struct LevelRange {
   std::uint32_t first_key_point = 0, key_points = 0;  // only the evaluated ones
 };
 
+// The tables of clips that clip_bones.comp reads, uploaded once.
+struct PlacedClips {
+  // Throws Failure, UNSUPPORTED if this OpenGL cannot bind a piece this large.
+  PlacedClips(Device& device, Ref<const LoadedClips> loaded, std::uint32_t number_in_model);
+
+  std::uint32_t first_weight() const;  // words
+  std::uint32_t first_mode() const;
+
+  Ref<const LoadedClips> clips;
+  std::uint32_t number;  // of the clips of its model, from 1 on; the records of instances have it
+  bool is_used = false;  // by an instance of the scene, at the last look
+  Buffer table;
+};
+
 struct ComputeModel : ModelData {
   // Throws Failure: UNSUPPORTED if the model is beyond this OpenGL.
   ComputeModel(Device& device, Ref<const LoadedModel> loaded);
@@ -27,6 +41,9 @@ struct ComputeModel : ModelData {
   std::uint32_t spheres() const {
     return levels[level_count() - 1].first_sphere + levels[level_count() - 1].spheres;
   }
+  // Returns the elements of the stream where an instance's bones are, and before them the place and frames of
+  // its clip.
+  std::uint32_t bone_uvec4s() const { return std::max(bones() * NOOK_BONE_ROWS, NOOK_CLIP_JOB_UVEC4S + 0u); }
   // Returns how many shadows an instance stores: one for each key point, then one for each key point that a
   // coarser level evaluates.
   std::uint32_t shadows() const;
@@ -91,6 +108,7 @@ struct ComputeChunk : ChunkData {
     std::uint32_t lit = 0;                // evaluated instances with a light
     std::uint32_t selected = 0;           // all selected instances
     std::uint32_t posed = 0;              // selected instances whose pose is on the GPU
+    std::uint32_t late = 0;               // selected instances whose clip the GPU decodes
     std::uint64_t offset = 0, bytes = 0;  // of the chunk's piece of ComputeScene::stream
     // Elements of 16 bytes from the start of the piece, which begins with the records.
     std::uint32_t bones = 0, casters = 0, lights = 0;
@@ -102,13 +120,20 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
 
   // Makes all buffers for the assigned places. Throws Failure.
   void make_buffers(Device& device);
+  // Uploads clips that instances use since the last call, and releases clips that none uses. Throws Failure.
+  void place_clips(Device& device);
+  // Returns the number of an instance's clips, which must be late.
+  std::uint32_t number_of_clips(const Instance& instance) const;
 
   Buffer stream;  // what one update sends, a piece for each chunk
   Buffer jobs;    // what one call of set_poses sends, a piece for each chunk; none before the first one
   std::uint64_t pose_calls = 0;
   Buffer spheres;  // of every place of every chunk
+  List<PlacedClips> clips;
 
  private:
+  // Of the scene, when the clips were placed.
+  std::uint64_t clips_revision_ = 0, clips_structure_ = 0;
   void make_sphere_buffers(Device& device);
   void make_light_buffers(Device& device);
 };

@@ -85,6 +85,8 @@ void ComputeTier::make_programs(const ComputeScene& placed) {
     grey_vertices_ = compute_program(device_, "character/vertices.comp", OutputDefine(NOOK_OUTPUT_GREY).text);
     colours_spread_ = compute_program(device_, "character/colours_spread.comp", "");
   }
+  if (!placed.clips.empty() && decode_clips_.name() == 0)
+    decode_clips_ = compute_program(device_, "character/clip_bones.comp", "");
   for (const ComputeModel& model : models_) {
     if (model.level_count() > 1 && spread_.name() == 0)
       spread_ = compute_program(device_, "character/spread.comp", "");
@@ -108,6 +110,7 @@ void ComputeTier::prepare(const Scene& scene) {
     device_.check("preparing a scene");
     placed->finish();
   }
+  placed->place_clips(device_);
   make_programs(*placed);
 }
 
@@ -150,6 +153,7 @@ void ComputeTier::release(const Scene& scene) {
 void ComputeTier::run(const Update& update) const {
   const Functions& gl = device_.gl;
   place_poses(update);
+  decode_clips(update);
   run_spheres(update);
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
   run_shadows(update);

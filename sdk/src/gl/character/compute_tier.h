@@ -31,6 +31,8 @@ class ComputeTier final : public Tier {
   void run(const Update& update) const;
   // Brings poses on the GPU to where the passes read bones.
   void place_poses(const Update& update) const;
+  // Decodes the bones of clips there (compute_clips.cpp).
+  void decode_clips(const Update& update) const;
   void run_spheres(const Update& update) const;
   void run_key_points(const Update& update, const ComputeChunk& chunk) const;
   void spread_levels(const Update& update, const ComputeChunk& chunk) const;
@@ -57,6 +59,7 @@ class ComputeTier final : public Tier {
   Object colours_spread_;
   Object lit_vertices_, grey_vertices_;
   Object convert_poses_, place_poses_;  // name 0 until a pose is on the GPU
+  Object decode_clips_;                 // name 0 until clips are on the GPU
   List<ComputeModel> models_;
   List<ComputeScene> scenes_;  // destroyed before the models that their chunks use
 };
