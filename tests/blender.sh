@@ -37,13 +37,24 @@ quick=$folder/nook-quick
 printf '#!/bin/sh\n[ "$1" = bake ] && set -- "$@" --steps 100 --auto-poses 30 --rays 64\nexec "%s" "$@"\n' "$NOOK_TOOL" > "$quick"
 chmod +x "$quick"
 
-run() { # NAME COMMAND...: its output, and an end if it fails
-  local name=$1
+run() { # NAME COMMAND...: its output, and an end with a message if it fails
+  local name=$1 status=0 start=$SECONDS
   shift
-  "$@" > "$folder/$name.log" 2>&1 || { cat "$folder/$name.log"; echo "$name failed"; exit 1; }
+  "$@" > "$folder/$name.log" 2>&1 || status=$?
+  if [ $status -ne 0 ]; then
+    cat "$folder/$name.log"
+    case $status in
+      124 | 137) echo "tests/blender.sh: $name did not end and was stopped after $((SECONDS - start)) s" >&2 ;;
+      *) echo "tests/blender.sh: $name failed with status $status after $((SECONDS - start)) s" >&2 ;;
+    esac
+    exit 1
+  fi
   grep "^ok" "$folder/$name.log" || true
+  echo "stage $name passed in $((SECONDS - start)) s"
 }
-on_display() { timeout 120 xvfb-run -a -s "-screen 0 1000x700x24" "$@"; }
+# The scripts stop a Blender that hangs and print where it hangs (watch.py). The limit here is for what hangs before or after them.
+export NOOK_WINDOW_SECONDS=${NOOK_WINDOW_SECONDS:-600}
+on_display() { timeout -k 10 $((NOOK_WINDOW_SECONDS + 120)) xvfb-run -a -s "-screen 0 1000x700x24" "$@"; }
 
 blender -b --factory-startup --python-exit-code 1 --python "$tests/blender_test.py" -- \
   "$addon" "$NOOK_TOOL" "$NOOK_LIBRARY" "$folder/character" ${1:+"$1"} | tee "$folder/log"

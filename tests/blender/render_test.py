@@ -7,12 +7,14 @@
 import os
 import pathlib
 import sys
+import traceback
 
 import bpy
 import numpy as np
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import limb  # noqa: E402
+import watch  # noqa: E402
 from checks import check  # noqa: E402
 
 FRAMES = range(1, 6)
@@ -76,18 +78,28 @@ def render_in_window(folder, lock):
         bpy.ops.render.render("INVOKE_DEFAULT", animation=True)
 
 
+def check_is_rendered(folder, lock):
+    lacks = [frame for frame in FRAMES if not os.path.isfile(os.path.join(folder, f"window{lock}_{frame:04}.exr"))]
+    check(not lacks, f"the window renders an animation, Lock Interface {lock}" if not lacks else f"the animation has ended without the frames {lacks}")
+
+
 def in_window(folder, lock):
-    steps = [0]
+    watch.begin()
+    bpy.app.handlers.render_write.append(lambda scene, *_: watch.say(f"frame {scene.frame_current} is written"))
+    started = [False]
 
     def step():
-        steps[0] += 1
         try:
-            if steps[0] == 1:
+            if not started[0]:
+                watch.say("the window is open")
+                started[0] = True
                 render_in_window(folder, lock)
-            elif steps[0] > 300 or not bpy.app.is_job_running("RENDER"):
+            elif not bpy.app.is_job_running("RENDER"):
+                check_is_rendered(folder, lock)
                 os._exit(0)
-        except Exception as error:  # a timer that fails would leave the window open
-            print(error, flush=True)
+        except BaseException:  # a timer that fails would leave the window open
+            traceback.print_exc()
+            sys.stderr.flush()
             os._exit(1)
         return 0.2
 
