@@ -16,7 +16,7 @@ from describe import constants, declarations  # noqa: E402
 
 HEADERS = ["nook", "nook_probe", "nook_character", "nook_material", "nook_bake", "experimental/nook_bake_key",
            "experimental/nook_bake_materials", "experimental/nook_calibration", "experimental/nook_debug", "experimental/nook_lod",
-           "experimental/nook_poses", "experimental/nook_sg", "experimental/nook_trace", "experimental/nook_transfer"]
+           "experimental/nook_match", "experimental/nook_poses", "experimental/nook_sg", "experimental/nook_trace", "experimental/nook_transfer"]
 # The functions of experimental headers that need OpenGL, which the module's library lacks.
 LEFT_OUT = re.compile(r"nook_gl_")
 PAGE = HERE / "nook/_layouts.py"

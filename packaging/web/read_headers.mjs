@@ -5,7 +5,7 @@
 import { readFileSync, writeFileSync } from "node:fs";
 
 const headers = ["nook", "nook_character", "nook_gl", "nook_nnao", "nook_probe", "nook_material", "experimental/nook_debug",
-  "experimental/nook_recording", "experimental/nook_lod", "experimental/nook_sg"];
+  "experimental/nook_recording", "experimental/nook_lod", "experimental/nook_match", "experimental/nook_sg"];
 const [include, output] = process.argv.slice(2);
 const text = headers.map((name) => readFileSync(`${include}/nook/${name}.h`, "utf8")).join("\n")
   .replace(/\/\*[\s\S]*?\*\//g, "");

@@ -75,7 +75,8 @@
 #define NOOK_RECORD_SELF 0x80000000u
 // This bit is set if the instance's pose is on the GPU. pose_place.comp then writes its bones.
 #define NOOK_RECORD_POSED 0x40000000u
-// If clip_bones.comp decodes its bones, these bits have the number of its clips, counted from 1 for each model.
+// If clip_bones.comp decodes its bones, these bits have the number of its clips, counted from 1 for each
+// model.
 #define NOOK_RECORD_CLIPS_SHIFT 20
 #define NOOK_RECORD_CLIPS_MASK 0x3ffu
 #define NOOK_RECORD_PLACE 0xfffffu
@@ -89,7 +90,7 @@
 // The maximum of ClipSet::pose.modes (sdk/src/character/clip_set.h).
 #define NOOK_MAX_POSE_MODES 512
 
-// Elements of the arrays in storage buffers.
+// Number of array elements per item in storage buffers.
 #define NOOK_RECORD_UVEC4S 2      // of an instance
 #define NOOK_SPHERE_VEC4S 2       // centre, 1 / radius; caster weight
 #define NOOK_BONE_ROWS 3          // of a 3x4 matrix
@@ -99,9 +100,9 @@
 #define NOOK_SPREAD_WORDS 3       // evaluated key point, scale, offset
 #define NOOK_POSE_BIND_UVEC4S 4   // of a bone: three rows from rest space to its transform; joint, transform
 #define NOOK_POSE_JOB_UVEC4S 5    // of an instance: three rows of its place; where; its origin's move
-#define NOOK_CLIP_JOB_UVEC4S 4    // of an instance: three rows of its place; two frames and the second's share
-#define NOOK_CLIP_SPAN_WORDS 4    // of a bone: centre, radius
-#define NOOK_CLIP_BONE_WORDS 6    // of a bone in a mode: twelve 16-bit numbers
-#define NOOK_COLOUR_VEC4S 2       // colour that multiplies the shadow, and the shadow; added occlusion
+#define NOOK_CLIP_JOB_UVEC4S 4  // of an instance: three rows of its place; two frames and the second's share
+#define NOOK_CLIP_SPAN_WORDS 4  // of a bone: centre, radius
+#define NOOK_CLIP_BONE_WORDS 6  // of a bone in a mode: twelve 16-bit numbers
+#define NOOK_COLOUR_VEC4S 2     // colour that multiplies the shadow, and the shadow; added occlusion
 
 #endif

@@ -576,6 +576,31 @@ class Arguments(unittest.TestCase):
         with self.assertRaisesRegex(ValueError, "skin: 1 is none of 0"):
             self.model.convert_pose(skinning, "skinning", skin=1)
 
+    def test_triangles_tell_the_sides_of_a_card_apart(self):
+        # A card above the tube: two squares in the same place that look up and down. The tube darkens the lower one.
+        positions, _ = self.character.vertices()
+        square = [[x, 0.13, z] for x in (0.4, 0.5, 0.6) for z in (-0.1, 0, 0.1)]
+        faces = np.array([[i, i + 1, i + 3] for i in (0, 1, 3, 4)] + [[i + 1, i + 4, i + 3] for i in (0, 1, 3, 4)])
+        first = len(positions)
+        points = np.concatenate([positions, square, square])
+        triangles = np.concatenate([self.character.triangles(), first + faces, first + 9 + faces[:, ::-1]])
+        one = np.tile([1.0, 0.0], (len(points), 1))
+        frames = np.tile(np.eye(3, 4), (2, 1, 1))
+        card = nook.Character.from_arrays(points, triangles, np.tile([0, 1], (len(points), 1)), one, [-1, 0], frames, ["root", "tip"])
+        with nook.bake_character(card, **SMALL) as job:
+            model = nook.CharacterModel(job.wait())
+        order = np.random.default_rng(7).permutation(len(points))
+        place = np.argsort(order)
+        # By places alone, the shuffled vertices of the card can be of either side.
+        self.assertGreater(model.match_vertices(points[order]).ambiguous, 0)
+        found = model.match_vertices(points[order], triangles=place[triangles])
+        np.testing.assert_array_equal(found.vertices, order)
+        self.assertEqual((found.unmatched, found.ambiguous, found.text), (0, 0, ""))
+        for wrong, words in (([[0, 1]], "triangles: has the shape"), ([[0, 1, -1]], "triangles: need whole numbers"),
+                             ([[0, 1, len(points)]], "indices.2. is out of range")):
+            with self.assertRaisesRegex((ValueError, nook.NookError), words):
+                model.match_vertices(points, triangles=wrong)
+
     def test_a_mesh_in_another_order_gets_its_own_ao(self):
         positions, normals = self.character.vertices()
         order = np.random.default_rng(5).permutation(len(positions))

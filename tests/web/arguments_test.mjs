@@ -133,6 +133,8 @@ refusedLists("nook_model_match_vertices", "normals", 9, (normals) => model.match
 refused("nook_model_match_vertices", "joints", () => model.matchVertices({ positions, joints: [0, 1], weights: [1, 0] }));
 refused("nook_model_match_vertices", "joints", () => model.matchVertices({ positions, joints: [0, 1, 65536], weights: [1, 1, 1] }));
 refused("nook_model_match_vertices", "weights", () => model.matchVertices({ positions, joints: [0, 1, 1], weights: [1, 1] }));
+for (const indices of [7, "012", [0, 1], [0, 1, 0.5], [0, 1, NaN], [0, 1, -1], [0, 1, 3], { array: [0, 1, 2] }, [0, 1, "2"]])
+  refused("nook_model_match_mesh", "indices", () => model.matchVertices({ positions, indices }));
 for (const value of [...wrongLists, [0.5], [NaN], [2 ** 32], ["1"]]) refused("nook_model_remap", "vertices", () => model.remap(value));
 for (const names of [undefined, "Hips", [1], [undefined], new Set(["a"]), { length: 1, 0: "a" }, [{ name: "Hips" }]])
   refused("nook_model_map_bones", "names", () => model.mapBones(names));

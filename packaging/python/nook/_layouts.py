@@ -1270,6 +1270,7 @@ FUNCTIONS: Dict[str, Tuple[Any, List[Any]]] = {
     "nook_scene_read_links": (nook_result, [nook_scene, nook_instance_id, ctypes.POINTER(nook_instance_id), ctypes.POINTER(ctypes.c_uint32)]),
     "nook_scene_set_terms": (nook_result, [nook_scene, ctypes.c_uint32]),
     "nook_model_resample": (nook_result, [nook_model, ctypes.POINTER(nook_vertex_match_desc), ctypes.POINTER(nook_model)]),
+    "nook_model_match_mesh": (nook_result, [nook_model, ctypes.POINTER(nook_vertex_match_desc), ctypes.POINTER(ctypes.c_uint32), ctypes.c_size_t, ctypes.POINTER(ctypes.c_uint32), ctypes.POINTER(nook_vertex_match_info)]),
     "nook_model_evaluate_poses": (nook_result, [nook_model, ctypes.POINTER(nook_scene_desc), ctypes.POINTER(nook_pose_desc), ctypes.c_uint32, ctypes.c_size_t, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_sg_radiance": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.c_uint32, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),
     "nook_sg_irradiance": (nook_result, [ctypes.POINTER(nook_lobe), ctypes.c_uint32, nook_probe_irradiance_form, ctypes.POINTER(ctypes.c_float), ctypes.POINTER(ctypes.c_float), ctypes.c_size_t]),

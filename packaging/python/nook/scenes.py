@@ -112,14 +112,15 @@ class CharacterModel(Handle):
         return ao
 
     def match_vertices(self, positions: Any, normals: Any = None, *, joints: Any = None, weights: Any = None, skin: int = 0,
-                       primitive: Optional[int] = None, in_rest_space: bool = False, tolerance: float = 0.0) -> VertexMatch:
+                       primitive: Optional[int] = None, triangles: Any = None, in_rest_space: bool = False,
+                       tolerance: float = 0.0) -> VertexMatch:
         """Finds the model's vertex for each vertex of your mesh, for remap().
 
         positions are n x 3, in the space of the file's POSITION attribute, or with in_rest_space in rest space and metres. normals
         are n x 3; they distinguish the two sides of a card. joints and weights are n x k, with k from 1 to 8; they distinguish
         vertices where meshes meet. skin is the index of their skin in the file. primitive is the file's primitive that your
-        vertices come from; None means all primitives. tolerance is the largest distance of a match, as a share of the diagonal of
-        the model's box; 0 means 1e-4.
+        vertices come from; None means all primitives. triangles are m x 3 indices of your vertices; they distinguish the two sides
+        of a sharp fold. tolerance is the largest distance of a match, as a share of the diagonal of the model's box; 0 means 1e-4.
         """
         desc = descriptor(c.nook_vertex_match_desc)
         p = floats(positions, (None, 3), "positions")
@@ -134,8 +135,13 @@ class CharacterModel(Handle):
             put(desc, influences=j.shape[1])
         vertices, info = np.empty(len(p), np.uint32), c.nook_vertex_match_info()
         info.struct_size = ctypes.sizeof(info)
-        call_interruptibly("nook_model_match_vertices", self.handle, ctypes.byref(desc), pointer(vertices), ctypes.byref(info),
-                           keep=(p, n, j, w, self), entries=len(p))
+        if triangles is None:
+            call_interruptibly("nook_model_match_vertices", self.handle, ctypes.byref(desc), pointer(vertices), ctypes.byref(info),
+                               keep=(p, n, j, w, self), entries=len(p))
+        else:
+            t = integers(triangles, np.uint32, (None, 3), "triangles")
+            call_interruptibly("nook_model_match_mesh", self.handle, ctypes.byref(desc), pointer(t), t.size, pointer(vertices),
+                               ctypes.byref(info), keep=(p, n, j, w, t, self), entries=len(p))
         return VertexMatch(vertices, info.unmatched, info.ambiguous, info.text.decode())
 
     def remap(self, vertices: Any) -> "CharacterModel":

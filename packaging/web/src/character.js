@@ -143,12 +143,14 @@ export class CharacterModel extends Owned {
     });
   }
 
-  // Finds the model's vertex for each vertex of a host's mesh: { vertices, unmatched, ambiguous, text }.
+  // Finds the model's vertex for each vertex of a host's mesh: { vertices, unmatched, ambiguous, text }. With `indices`, three for each
+  // triangle, the sides of triangles tell vertices apart too.
   matchVertices(match) {
     const { library } = this;
-    return library.call("nook_model_match_vertices", () => {
+    const isMesh = match?.indices !== undefined && match?.indices !== null;
+    return library.call(isMesh ? "nook_model_match_mesh" : "nook_model_match_vertices", () => {
       checkObject(library.name, "match", match, "an object such as { positions, normals }");
-      const { positions, normals, joints, weights, inRestSpace, ...others } = match;
+      const { positions, normals, joints, weights, indices, inRestSpace, ...others } = match;
       checkNumbers(library.name, "positions", positions, { groupsOf: 3 });
       checkNumbers(library.name, "normals", normals, { count: positions.length, why: "(as many as positions)", optional: true });
       const count = positions.length / 3;
@@ -156,6 +158,10 @@ export class CharacterModel extends Owned {
       checkNumbers(library.name, "weights", weights, { count: joints?.length ?? 0, why: "(as many as joints)", optional: true });
       for (let i = 0; i < (joints?.length ?? 0); ++i)
         if (joints[i] < 0 || joints[i] > 65535) refuse(library.name, `joints needs numbers from 0 to 65535 (got ${joints[i]} in place ${i})`);
+      checkNumbers(library.name, "indices", indices, { groupsOf: 3, why: "(three for each triangle)", whole: true, optional: true });
+      for (let i = 0; isMesh && i < indices.length; ++i)
+        if (indices[i] < 0 || indices[i] >= count)
+          refuse(library.name, `indices needs numbers below ${count}, the count of the vertices (got ${indices[i]} in place ${i})`);
       const description = library.descriptor("nook_vertex_match_desc", {
         ...others, vertexCount: count, positions: () => library.floats(positions), normals: () => library.floats(normals),
         inRestSpace: inRestSpace ? 1 : 0, weights: () => library.floats(weights),
@@ -163,8 +169,9 @@ export class CharacterModel extends Owned {
         ...(joints && { influences: joints.length / (count || 1) }),
       });
       const vertices = library.room32(count);
-      const { unmatched, ambiguous, text } = library.info(library.name, "nook_vertex_match_info",
-        (info) => library.module._nook_model_match_vertices(this.handle, description, vertices, info));
+      const { unmatched, ambiguous, text } = library.info(library.name, "nook_vertex_match_info", (info) => isMesh
+        ? library.module._nook_model_match_mesh(this.handle, description, library.integers(indices), indices.length, vertices, info)
+        : library.module._nook_model_match_vertices(this.handle, description, vertices, info));
       return { vertices: library.module.HEAPU32.slice(vertices >> 2, (vertices >> 2) + count), unmatched, ambiguous, text };
     });
   }

@@ -126,9 +126,10 @@ export class CharacterModel extends Owned {
   checkPose(pose: Pose, vertices: { positions: Numbers; checkVertices?: Numbers; place3x4?: Numbers; tolerance?: number }):
     PoseCheck;
   /** The model's vertex for each vertex of a host's mesh; 0xffffffff where none is near enough. joints and weights, which are as
-   * many for each vertex, tell vertices apart where meshes meet; ambiguous counts those that nothing tells apart, and text names them. */
+   * many for each vertex, tell vertices apart where meshes meet. indices are three for each triangle, and tell the two sides of a sharp fold apart. ambiguous counts
+   * the vertices that nothing tells apart, and text names them. */
   matchVertices(match: { positions: Numbers; normals?: Numbers; joints?: Numbers; weights?: Numbers; skin?: number; primitive?: number;
-    inRestSpace?: boolean; tolerance?: number }): { vertices: Uint32Array; unmatched: number; ambiguous: number; text: string };
+    indices?: Numbers; inRestSpace?: boolean; tolerance?: number }): { vertices: Uint32Array; unmatched: number; ambiguous: number; text: string };
   /** A model whose vertices are those of a host's mesh. */
   remap(vertices: Numbers): CharacterModel;
 }

@@ -1,5 +1,6 @@
 // What test.mjs calls in the browser.
 import * as THREE from "three";
+import { shuffle } from "./shuffle.js";
 
 const largest = (a, b) => a.reduce((most, value, i) => Math.max(most, Math.abs(value - b[i])), 0);
 
@@ -38,37 +39,14 @@ export function makeChecks(page) {
     renderer.readRenderTargetPixels(composer.writeBuffer, 0, 0, width, height, halves);
     return Float32Array.from(halves, THREE.DataUtils.fromHalfFloat);
   }
-  // Another order of the vertices of a mesh, with its index: vertex i of the result is vertex order[i].
-  function shuffle(mesh) {
-    const { attributes, index } = mesh.geometry;
-    const { count } = attributes.position;
-    const order = Array.from({ length: count }, (_, i) => i);
-    for (let i = count - 1, seed = 1; i > 0; --i) {
-      seed = (seed * 48271) % 2147483647;
-      const j = seed % (i + 1);
-      [order[i], order[j]] = [order[j], order[i]];
-    }
-    const place = new Uint32Array(count);
-    order.forEach((from, to) => (place[from] = to));
-    const geometry = new THREE.BufferGeometry();
-    for (const [name, from] of Object.entries(attributes)) {
-      const to = from.clone();
-      order.forEach((source, i) => {
-        for (let c = 0; c < from.itemSize; ++c) to.setComponent(i, c, from.getComponent(source, c));
-      });
-      geometry.setAttribute(name, to);
-    }
-    geometry.setIndex(Array.from(index.array, (vertex) => place[vertex]));
-    mesh.geometry = geometry;
-    orders.set(mesh, order);
-  }
+  // The order of the vertices of meshes that are shuffled.
   const orders = new Map();
   // The second half of a mesh's triangles goes to a mesh of its own, on the same skeleton.
   function split({ meshes }) {
     const [mesh] = meshes, part = mesh.clone(false);
     mesh.parent.add(part);
     meshes.push(part);
-    shuffle(part);
+    orders.set(part, shuffle(part));
     mesh.geometry = mesh.geometry.clone();
     for (const [half, each] of meshes.entries()) {
       const { array } = each.geometry.index, middle = 3 * Math.floor(array.length / 6);
@@ -82,7 +60,7 @@ export function makeChecks(page) {
     // Pictures of three.js alone, and with Nook at work whose AO no material reads: they must be equal. The last character has
     // its vertices in another order than the file, the second one has two meshes.
     async plain() {
-      shuffle(actors[2].meshes[0]);
+      orders.set(actors[2].meshes[0], shuffle(actors[2].meshes[0]));
       split(actors[1]);
       const plainMaterials = actors.map(({ meshes }) => meshes.map(({ material }) => material));
       const alone = picture(), again = picture();

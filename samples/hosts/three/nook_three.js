@@ -21,12 +21,14 @@ const values = ({ geometry: { attributes: { [name]: from } } }, name) => from &&
   (_, i) => from.getComponent(Math.floor(i / from.itemSize), i % from.itemSize));
 
 // The vertices of a mesh in the model: in the primitive of the file that has them all, as the GLTFLoader makes a mesh of each; otherwise
-// in any. Joints and weights tell vertices apart where meshes meet; they are of the only skin, or of the one with as many joints.
+// in any. Joints and weights tell vertices apart where meshes meet; they are of the only skin, or of the one with as many joints. Triangles tell
+// the two sides of a sharp fold apart.
 function matchMesh(model, mesh, taken) {
   const { count } = mesh.geometry.attributes.position, { primitiveCount, skinCount } = model.info;
   const skins = Array.from({ length: skinCount }, (_, i) => model.skin(i)).filter(({ jointCount }) => jointCount === mesh.skeleton?.bones.length);
   const bound = skins.length === 1 && { skin: skins[0].fileIndex, joints: values(mesh, "skinIndex"), weights: values(mesh, "skinWeight") };
-  const match = { positions: values(mesh, "position"), normals: values(mesh, "normal"), ...bound };
+  const indices = mesh.geometry.index?.array ?? Array.from({ length: count - (count % 3) }, (_, i) => i);
+  const match = { positions: values(mesh, "position"), normals: values(mesh, "normal"), indices, ...bound };
   for (let primitive = 0; primitive < primitiveCount; ++primitive) {
     if (taken.has(primitive) || model.primitive(primitive).count !== count) continue;
     const found = model.matchVertices({ ...match, primitive });
