@@ -51,7 +51,7 @@ def script():
     yield
     check(not list(FOLDER.glob("Rig*")), "while it runs, no file has its final name")
     bpy.context.window_manager.windows[0].event_simulate(type="ESC", value="PRESS", x=100, y=100)
-    for _ in range(4):
+    while operators._baking:
         yield
     check(not FOLDER.exists() and not operators._baking and records.find(rig()) is None, "after Escape nothing is left")
     bake()

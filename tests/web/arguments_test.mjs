@@ -135,6 +135,17 @@ refused("nook_model_match_vertices", "joints", () => model.matchVertices({ posit
 refused("nook_model_match_vertices", "weights", () => model.matchVertices({ positions, joints: [0, 1, 1], weights: [1, 1] }));
 for (const indices of [7, "012", [0, 1], [0, 1, 0.5], [0, 1, NaN], [0, 1, -1], [0, 1, 3], { array: [0, 1, 2] }, [0, 1, "2"]])
   refused("nook_model_match_mesh", "indices", () => model.matchVertices({ positions, indices }));
+{
+  const names = () => module.calls.map(([name]) => name).filter((name) => name.startsWith("nook_model_match"));
+  module.calls.length = 0;
+  model.matchVertices({ positions });
+  assert.deepEqual(names(), ["nook_model_match_vertices"]);
+  module.calls.length = 0;
+  model.matchVertices({ positions, indices: [2, 0, 1] });
+  assert.deepEqual(names(), ["nook_model_match_mesh"]);
+  const [, , , address, indexCount] = module.calls.find(([name]) => name === "nook_model_match_mesh");
+  assert.deepEqual([...module.HEAPU32.slice(address >> 2, (address >> 2) + indexCount)], [2, 0, 1]);
+}
 for (const value of [...wrongLists, [0.5], [NaN], [2 ** 32], ["1"]]) refused("nook_model_remap", "vertices", () => model.remap(value));
 for (const names of [undefined, "Hips", [1], [undefined], new Set(["a"]), { length: 1, 0: "a" }, [{ name: "Hips" }]])
   refused("nook_model_map_bones", "names", () => model.mapBones(names));

@@ -17,8 +17,11 @@ function occluded(material, share) {
   return copy;
 }
 
-const values = ({ geometry: { attributes: { [name]: from } } }, name) => from && Array.from({ length: from.count * from.itemSize },
-  (_, i) => from.getComponent(Math.floor(i / from.itemSize), i % from.itemSize));
+// The numbers of an attribute of a mesh; undefined if it has none.
+function values({ geometry: { attributes } }, name) {
+  const from = attributes[name];
+  return from && Array.from({ length: from.count * from.itemSize }, (_, i) => from.getComponent(Math.floor(i / from.itemSize), i % from.itemSize));
+}
 
 // The vertices of a mesh in the model: in the primitive of the file that has them all, as the GLTFLoader makes a mesh of each; otherwise
 // in any. Joints and weights tell vertices apart where meshes meet; they are of the only skin, or of the one with as many joints. Triangles tell
