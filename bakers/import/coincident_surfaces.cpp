@@ -20,7 +20,8 @@ constexpr std::size_t most_parts = std::size_t{1} << 16;
 // Limits the time on files whose triangles all lie on each other. What is found until then is enough.
 constexpr std::size_t most_candidates = 256, most_tests = std::size_t{1} << 26;
 constexpr float reach_of_size = 0.02f;  // relative to the diagonal of a part
-constexpr float least_cosine = 0.7f;    // for surfaces that face the same way
+constexpr float least_cosine = 0.7f;    // for surfaces that face the same way, or each other
+constexpr float same_plane = 0.01f;     // relative to the reach
 
 struct Box {
   Vec3 low{1e30f, 1e30f, 1e30f}, high{-1e30f, -1e30f, -1e30f};
@@ -34,10 +35,18 @@ struct Box {
   }
 };
 
+// How another part lies where the line along a sample's normal crosses it.
+enum class Lie : std::uint8_t {
+  along,   // faces the same way
+  facing,  // in front of the sample, with its front towards it
+  behind   // behind the sample or in its place, and faces the other way: the other side of a sheet
+};
+
 // The point nearest to a sample where its normal crosses another part.
 struct Hit {
   std::uint32_t part = 0;
   float height = 0;  // along the sample's normal, in units of its reach
+  Lie lie = Lie::along;
 };
 
 struct Sample {
@@ -45,7 +54,7 @@ struct Sample {
   float reach = 0;
   double area = 0;  // area that the sample stands for
   std::uint32_t part = 0;
-  std::vector<Hit> hits;  // one for each other part, the nearest
+  std::vector<Hit> hits;  // the nearest of each other part, one for each way that it lies
 };
 
 constexpr std::size_t most_hits = 16;
@@ -168,13 +177,13 @@ float crossing(Vec3 at, Vec3 direction, Vec3 a, Vec3 b, Vec3 c) {
   return dot(ac, q) / det;
 }
 
-void add_hit(Sample& sample, std::uint32_t part, float height) {
+void add_hit(Sample& sample, const Hit& found) {
   for (Hit& hit : sample.hits)
-    if (hit.part == part) {
-      if (std::abs(height) < std::abs(hit.height)) hit.height = height;
+    if (hit.part == found.part && hit.lie == found.lie) {
+      if (std::abs(found.height) < std::abs(hit.height)) hit.height = found.height;
       return;
     }
-  if (sample.hits.size() < most_hits) sample.hits.push_back({part, height});
+  if (sample.hits.size() < most_hits) sample.hits.push_back(found);
 }
 
 bool same_primitive(const SurfaceParts::Part& a, const SurfaceParts::Part& b) {
@@ -209,9 +218,12 @@ void find_hits(const Mesh& mesh, std::vector<Sample>& samples) {
     tree.visit(box, [&](Sample& sample) {
       ++tests;
       if (same_primitive(mesh.parts.all[sample.part], mesh.parts.all[part])) return;
-      if (!(dot(sample.normal, normal) >= least_cosine)) return;
+      const float cosine = dot(sample.normal, normal);
+      if (!(std::abs(cosine) >= least_cosine)) return;
       const float height = crossing(sample.at, sample.normal, a, b, c) / sample.reach;
-      if (std::abs(height) <= 1) add_hit(sample, std::uint32_t(part), height);
+      if (!(std::abs(height) <= 1)) return;
+      const Lie lie = cosine > 0 ? Lie::along : height > same_plane ? Lie::facing : Lie::behind;
+      add_hit(sample, {std::uint32_t(part), height, lie});
     });
   }
 }
@@ -230,15 +242,24 @@ struct Contacts {
   std::map<std::pair<Surface, Surface>, Contact> of;
 };
 
-Contacts add_up(const Mesh& mesh, const std::vector<Sample>& samples) {
-  Contacts sum;
+std::map<Surface, double> areas_of(const Mesh& mesh, const std::vector<Sample>& samples) {
+  std::map<Surface, double> area;
+  for (const Sample& sample : samples) {
+    const SurfaceParts::Part& own = mesh.parts.all[sample.part];
+    area[{own.node, whole_node}] += sample.area;
+    area[{own.node, own.primitive}] += sample.area;
+  }
+  return area;
+}
+
+Contacts add_up(const Mesh& mesh, const std::vector<Sample>& samples, Lie lie) {
+  Contacts sum{areas_of(mesh, samples), {}};
   std::map<Surface, float> nearest;
   for (const Sample& sample : samples) {
     const SurfaceParts::Part& own = mesh.parts.all[sample.part];
-    sum.area[{own.node, whole_node}] += sample.area;
-    sum.area[{own.node, own.primitive}] += sample.area;
     nearest.clear();
     for (const Hit& hit : sample.hits) {
+      if (hit.lie != lie) continue;
       const SurfaceParts::Part& other = mesh.parts.all[hit.part];
       const Surface key{other.node, other.node == own.node ? other.primitive : whole_node};
       const auto [at, is_new] = nearest.try_emplace(key, hit.height);
@@ -287,11 +308,18 @@ bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   return 2 * shared >= few.size();
 }
 
+// True for a mesh and its copy that was pushed along its normals.
+bool have_equal_counts(const Mesh& mesh, const Surface& a, const Surface& b) {
+  std::size_t of_a = 0, of_b = 0;
+  for_each_triangle(mesh, a, [&](std::size_t) { ++of_a; });
+  for_each_triangle(mesh, b, [&](std::size_t) { ++of_b; });
+  return of_a == of_b && places_of(mesh, a).size() == places_of(mesh, b).size();
+}
+
 // True for a copy or a level of detail. Clothes on a body and pictures on a wall stay on one side, and cover
 // only a part.
 bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const Contact& from_a,
                    const Contact& from_b, const float (&cover)[2]) {
-  constexpr double same_plane = 0.01;  // relative to the reach
   const double area = from_a.area + from_b.area;
   const double mean = std::abs(from_a.height - from_b.height) / area;
   const double rms = std::sqrt((from_a.height_square + from_b.height_square) / area);
@@ -299,10 +327,121 @@ bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const C
   // Clothes keep their distance: their mean / rms is 0.93 or more. Levels of detail lie on both sides, or
   // have their corners on the surface of a convex body and the rest inside. Their mean / rms is 0.05 to 0.86,
   // and rises as they get coarser.
-  const double one_sided = rms < same_plane ? 0 : mean / rms;
-  if (least >= 0.9f) return one_sided < 0.9 || share_vertices(mesh, a, b);
+  const double one_sided = rms < double(same_plane) ? 0 : mean / rms;
+  if (least >= 0.9f) return one_sided < 0.9 || share_vertices(mesh, a, b) || have_equal_counts(mesh, a, b);
   if (least >= 0.5f) return one_sided < 0.8 || share_vertices(mesh, a, b);
-  return most >= 0.9f && rms >= same_plane && one_sided < 0.7;
+  return most >= 0.9f && rms >= double(same_plane) && one_sided < 0.7;
+}
+
+// The pairs of surfaces that face the same way.
+std::vector<CoincidentPair> pairs_of(const Mesh& mesh, Contacts sum) {
+  std::vector<CoincidentPair> out;
+  std::size_t candidates = 0;
+  for (const auto& [pair, there] : sum.of) {
+    const auto back = sum.of.find({pair.second, pair.first});
+    if (back != sum.of.end() && pair.second < pair.first) continue;
+    const Contact here = back == sum.of.end() ? Contact{} : back->second;
+    Surface a = pair.first, b = pair.second;
+    float cover[2] = {float(there.area / sum.area[a]), float(here.area / sum.area[b])};
+    if (std::max(cover[0], cover[1]) < 0.5f) continue;
+    if (++candidates > most_candidates) break;
+    if (!is_coincident(mesh, a, b, there, here, cover)) continue;
+    std::size_t of_a = 0, of_b = 0;
+    for_each_triangle(mesh, a, [&](std::size_t) { ++of_a; });
+    for_each_triangle(mesh, b, [&](std::size_t) { ++of_b; });
+    // Of two copies, the one outside darkens the other.
+    const bool b_is_inside = there.height < 0 && here.height > 0;
+    if (of_a < of_b || (of_a == of_b && b_is_inside)) std::swap(a, b), std::swap(cover[0], cover[1]);
+    out.push_back({{a[0], b[0]}, {a[1], b[1]}, {cover[0], cover[1]}});
+  }
+  return out;
+}
+
+// The volume that the fronts of each surface enclose. It is negative if they face inwards. For open surfaces,
+// the middle of their box closes the gaps.
+std::map<Surface, double> volumes_of(const Mesh& mesh) {
+  std::map<Surface, Box> boxes;
+  std::map<Surface, double> volume;
+  const auto surfaces_of = [&](std::size_t p) {
+    const SurfaceParts::Part& part = mesh.parts.all[p];
+    return std::array{Surface{part.node, part.primitive}, Surface{part.node, whole_node}};
+  };
+  for (std::size_t p = 0; p < mesh.parts.all.size(); ++p)
+    for (const Surface& surface : surfaces_of(p)) {
+      Box& box = boxes[surface];
+      for (std::size_t t = mesh.begin(p); t < mesh.parts.all[p].end_triangle; ++t)
+        for (std::size_t c = 0; c < 3; ++c) box.add(mesh.corner(t, c));
+    }
+  for (std::size_t p = 0; p < mesh.parts.all.size(); ++p)
+    for (const Surface& surface : surfaces_of(p)) {
+      const Box& box = boxes[surface];
+      const Vec3 middle = 0.5f * (box.low + box.high);
+      double& sum = volume[surface];
+      for (std::size_t t = mesh.begin(p); t < mesh.parts.all[p].end_triangle; ++t)
+        sum += double(dot(mesh.corner(t, 0) - middle, mesh.face(t))) / 6;
+    }
+  return volume;
+}
+
+// The share of each surface that faces any other surface, and whose back is free: of nodes other nodes, of
+// primitives also primitives of the same node.
+std::map<Surface, double> facing_shares(const Mesh& mesh, const std::vector<Sample>& samples) {
+  std::map<Surface, double> share, area = areas_of(mesh, samples);
+  for (const Sample& sample : samples) {
+    const SurfaceParts::Part& own = mesh.parts.all[sample.part];
+    bool any = false, of_other_node = false, has_back = false;
+    for (const Hit& hit : sample.hits) {
+      has_back = has_back || hit.lie == Lie::behind;
+      if (hit.lie != Lie::facing) continue;
+      any = true;
+      of_other_node = of_other_node || mesh.parts.all[hit.part].node != own.node;
+    }
+    if (any && !has_back) share[{own.node, own.primitive}] += sample.area;
+    if (of_other_node && !has_back) share[{own.node, whole_node}] += sample.area;
+  }
+  for (auto& [surface, sum] : share) sum /= area[surface];
+  return share;
+}
+
+// Surfaces that face others nearly all over. Linings have a cloth behind them, and a socket holds only a part
+// of its ball.
+std::vector<Surface> facing_surfaces(const Mesh& mesh, const std::vector<Sample>& samples) {
+  // A hull reaches beyond the body's edges by its distance.
+  constexpr double least = 0.8;
+  std::vector<Surface> out;
+  const std::map<Surface, double> shares = facing_shares(mesh, samples);
+  for (const auto& [surface, share] : shares) {
+    if (share < least || out.size() == most_candidates) continue;
+    const auto whole = shares.find({surface[0], whole_node});
+    if (surface[1] == whole_node || whole == shares.end() || whole->second < least) out.push_back(surface);
+  }
+  return out;
+}
+
+// The surfaces among those which face inwards, with the largest surface inside: a hull may surround several.
+std::vector<OutlineHull> hulls_of(const Mesh& mesh, const std::vector<Sample>& samples) {
+  constexpr double least_of_body = 0.5;  // bodies have insides such as mouths
+  std::map<Surface, OutlineHull> found;
+  for (const Surface& surface : facing_surfaces(mesh, samples)) found[surface] = {};
+  if (found.empty()) return {};
+  std::map<Surface, double> volume = volumes_of(mesh), most;
+  std::erase_if(found, [&](const auto& hull) { return !(volume[hull.first] < 0); });
+  Contacts sum = add_up(mesh, samples, Lie::facing);
+  for (const auto& [pair, contact] : sum.of) {
+    const auto& [body, around] = pair;
+    const double cover = contact.area / sum.area[body];
+    if (cover < least_of_body || !(volume[body] > 0)) continue;
+    for (auto at = found.lower_bound({around[0], 0}); at != found.end() && at->first[0] == around[0]; ++at) {
+      const Surface& hull = at->first;
+      if ((around[1] != whole_node && around != hull) || contact.area <= most[hull]) continue;
+      most[hull] = contact.area;
+      at->second = {hull[0], hull[1], hull[1] == whole_node, body[0], body[1], float(cover)};
+    }
+  }
+  std::vector<OutlineHull> out;
+  for (const auto& [surface, hull] : found)
+    if (most[surface] > 0) out.push_back(hull);
+  return out;
 }
 
 // Returns a name by which you can choose one node of a pair apart from the other.
@@ -337,42 +476,46 @@ std::string sentence_of(const tinygltf::Model& model, const CoincidentPair& pair
          cure;
 }
 
+std::string sentence_of(const tinygltf::Model& model, const OutlineHull& hull) {
+  const std::string percent = std::to_string(int(std::lround(100 * double(hull.cover)))) + " %";
+  std::string what, around, cure;
+  const std::string node = "node \"" + node_label(model, hull.node) + "\"";
+  if (hull.is_whole_node) {
+    const std::string name = chosen_name(model, {{hull.node, hull.inner_node}, {}, {}}, 0);
+    what = name.empty() ? node : "\"" + name + "\"";
+    cure = name.empty() ? "give it a name of its own and leave it out by --without"
+                        : "leave it out: --without \"" + name + "\"";
+  } else {
+    what = "primitive " + std::to_string(hull.primitive) + " of " + node;
+    cure = "remove it from the mesh";
+  }
+  around = hull.inner_node == hull.node ? "primitive " + std::to_string(hull.inner_primitive)
+                                        : "node \"" + node_label(model, hull.inner_node) + "\"";
+  return what + " lies close around " + percent + " of " + around +
+         " and turns its faces inside, as the hull of a toon outline does, so that it darkens all of it; " +
+         cure;
+}
+
 }  // namespace
 
-std::vector<CoincidentPair> coincident_surfaces(const SurfaceParts& parts, std::span<const Vec3> position,
-                                                std::span<const Triangle> triangle) {
+CloseSurfaces close_surfaces(const SurfaceParts& parts, std::span<const Vec3> position,
+                             std::span<const Triangle> triangle) {
   std::set<Surface> distinct;
   for (const SurfaceParts::Part& part : parts.all) distinct.insert({part.node, part.primitive});
   if (distinct.size() < 2) return {};
   const Mesh mesh{parts, position, triangle};
   std::vector<Sample> samples = sample_parts(mesh);
   find_hits(mesh, samples);
-  Contacts sum = add_up(mesh, samples);
-  std::vector<CoincidentPair> out;
-  std::size_t candidates = 0;
-  for (const auto& [pair, there] : sum.of) {
-    const auto back = sum.of.find({pair.second, pair.first});
-    if (back != sum.of.end() && pair.second < pair.first) continue;
-    const Contact here = back == sum.of.end() ? Contact{} : back->second;
-    Surface a = pair.first, b = pair.second;
-    float cover[2] = {float(there.area / sum.area[a]), float(here.area / sum.area[b])};
-    if (std::max(cover[0], cover[1]) < 0.5f) continue;
-    if (++candidates > most_candidates) break;
-    if (!is_coincident(mesh, a, b, there, here, cover)) continue;
-    std::size_t of_a = 0, of_b = 0;
-    for_each_triangle(mesh, a, [&](std::size_t) { ++of_a; });
-    for_each_triangle(mesh, b, [&](std::size_t) { ++of_b; });
-    if (of_a < of_b) std::swap(a, b), std::swap(cover[0], cover[1]);
-    out.push_back({{a[0], b[0]}, {a[1], b[1]}, {cover[0], cover[1]}});
-  }
-  return out;
+  return {pairs_of(mesh, add_up(mesh, samples, Lie::along)), hulls_of(mesh, samples)};
 }
 
-void warn_of_coincident_surfaces(const tinygltf::Model& model, const SurfaceParts& parts,
-                                 std::span<const Vec3> position, std::span<const Triangle> triangle,
-                                 std::vector<std::string>& warnings) {
+std::vector<OutlineHull> warn_of_close_surfaces(const tinygltf::Model& model, const SurfaceParts& parts,
+                                                std::span<const Vec3> position,
+                                                std::span<const Triangle> triangle,
+                                                std::vector<std::string>& warnings) {
   constexpr std::size_t most = 4;
-  std::vector<CoincidentPair> pairs = coincident_surfaces(parts, position, triangle);
+  CloseSurfaces close = close_surfaces(parts, position, triangle);
+  std::vector<CoincidentPair>& pairs = close.pairs;
   std::stable_sort(pairs.begin(), pairs.end(), [](const CoincidentPair& a, const CoincidentPair& b) {
     return a.cover[0] + a.cover[1] > b.cover[0] + b.cover[1];
   });
@@ -382,6 +525,13 @@ void warn_of_coincident_surfaces(const tinygltf::Model& model, const SurfacePart
     warnings.push_back(std::to_string(pairs.size() - most) +
                        (pairs.size() == most + 1 ? " more pair of nodes lies" : " more pairs of nodes lie") +
                        " on each other; `nook inspect` lists the nodes of a file");
+  for (std::size_t i = 0; i < std::min(close.hulls.size(), most); ++i)
+    warnings.push_back(sentence_of(model, close.hulls[i]));
+  if (close.hulls.size() > most)
+    warnings.push_back(std::to_string(close.hulls.size() - most) +
+                       (close.hulls.size() == most + 1 ? " more hull lies" : " more hulls lie") +
+                       " around other surfaces; `nook inspect` lists the nodes of a file");
+  return std::move(close.hulls);
 }
 
 }  // namespace nook::bake

@@ -277,11 +277,17 @@ std::vector<InsideOutPart> inside_out_parts(const SurfaceParts& parts, std::span
 
 void warn_of_inside_out_parts(const tinygltf::Model& model, const SurfaceParts& parts,
                               std::span<const Vec3> position, std::span<const Triangle> triangle,
-                              std::vector<std::string>& warnings) {
+                              std::span<const OutlineHull> hulls, std::vector<std::string>& warnings) {
   constexpr std::size_t most = 4;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<std::size_t, std::size_t>>
       of;  // parts, triangles
+  const auto is_hull = [&](const InsideOutPart& part) {
+    return std::any_of(hulls.begin(), hulls.end(), [&](const OutlineHull& hull) {
+      return part.node == hull.node && (hull.is_whole_node || part.primitive == hull.primitive);
+    });
+  };
   for (const InsideOutPart& part : inside_out_parts(parts, position, triangle)) {
+    if (is_hull(part)) continue;
     auto& sum = of[{part.node, part.primitive}];
     ++sum.first;
     sum.second += part.triangles;

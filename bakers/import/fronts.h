@@ -49,10 +49,10 @@ struct InsideOutPart {
 std::vector<InsideOutPart> inside_out_parts(const SurfaceParts& parts, std::span<const Vec3> position,
                                             std::span<const std::array<std::uint32_t, 3>> triangle);
 
-// Adds one sentence for each primitive with such parts, at most four.
+// Adds one sentence for each primitive with such parts, at most four. The hulls have sentences of their own.
 void warn_of_inside_out_parts(const tinygltf::Model& model, const SurfaceParts& parts,
                               std::span<const Vec3> position,
                               std::span<const std::array<std::uint32_t, 3>> triangle,
-                              std::vector<std::string>& warnings);
+                              std::span<const OutlineHull> hulls, std::vector<std::string>& warnings);
 
 }  // namespace nook::bake

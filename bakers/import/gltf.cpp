@@ -235,8 +235,9 @@ ImportedCharacter import_bytes(std::span<const std::byte> bytes, const FileAcces
   FileMesh file;
   append_meshes(model, mesh_nodes, skeleton, character, file);
   const SurfaceParts parts = parts_of(file, character.node_of_primitive);
-  warn_of_coincident_surfaces(model, parts, file.position, file.triangle, character.warnings);
-  warn_of_inside_out_parts(model, parts, file.position, file.triangle, character.warnings);
+  const std::vector<OutlineHull> hulls =
+      warn_of_close_surfaces(model, parts, file.position, file.triangle, character.warnings);
+  warn_of_inside_out_parts(model, parts, file.position, file.triangle, hulls, character.warnings);
   for (std::size_t s = 0; s < skeleton.skins.size(); ++s)
     character.skins.push_back(
         {mesh_nodes.file_skins[s], skeleton.skins[s].rest_from_mesh, std::move(skeleton.skins[s].bone)});

@@ -142,7 +142,7 @@ StaticScene import_document(std::span<const std::byte> bytes, const FileAccess& 
   });
   if (scene.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
-  warn_of_coincident_surfaces(model, parts, scene.position, scene.triangle, scene.warnings);
+  warn_of_close_surfaces(model, parts, scene.position, scene.triangle, scene.warnings);
   return scene;
 }
 

@@ -189,9 +189,10 @@ ImportedSurface import_document(std::span<const std::byte> bytes, const FileAcce
   if (building.mesh.triangle.empty())
     throw Failure(NOOK_ERROR_BAD_FILE, "the default scene shows no triangle; export the meshes with it");
   make_missing(building, imported.warnings);
-  warn_of_coincident_surfaces(model, parts, building.mesh.position, building.mesh.triangle,
-                              imported.warnings);
-  warn_of_inside_out_parts(model, parts, building.mesh.position, building.mesh.triangle, imported.warnings);
+  const std::vector<OutlineHull> hulls =
+      warn_of_close_surfaces(model, parts, building.mesh.position, building.mesh.triangle, imported.warnings);
+  warn_of_inside_out_parts(model, parts, building.mesh.position, building.mesh.triangle, hulls,
+                           imported.warnings);
   imported.mesh = std::move(building.mesh);
   return imported;
 }

@@ -374,6 +374,51 @@ TEST_CASE("clothes, linings and neighbours do not lie on each other") {
   CHECK(coincident(file) == 0);
 }
 
+TEST_CASE("hulls that draw outlines are found, and linings and rooms are not") {
+  GltfBuilder file = empty_scene();
+  add_tube_mesh(file, "body", 32, 40, 0.3f);
+  std::size_t hulls = 0;
+  const char* named = "\"hull\" lies close around";
+  SECTION("around one body") {
+    add_tube_mesh(file, "hull", 32, 40, 0.306f, 1, 0);
+    hulls = 1;
+  }
+  SECTION("coarser, around two bodies") {
+    add_tube_mesh(file, "head", 32, 20, 0.3f, 1, 1.6f);
+    add_tube_mesh(file, "hull", 24, 50, 0.31f, 1.6f, 0);
+    hulls = 1;
+    named = "of node \"body\"";
+  }
+  SECTION("around a part") {
+    add_tube_mesh(file, "sock", 32, 10, 0.306f, 0.3f, 0);
+  }
+  SECTION("a lining below a cloth") {
+    add_tube_mesh(file, "lining", 32, 40, 0.306f, 1, 0);
+    add_tube_mesh(file, "cloth", 32, 40, 0.309f);
+    // One mesh, as an exporter joins them.
+    Json& meshes = file.document["meshes"];
+    meshes[1]["primitives"].push_back(meshes[2]["primitives"][0]);
+    file.document["scenes"][0]["nodes"] = {0, 1};
+  }
+  SECTION("as a primitive of the body") {
+    add_tube_mesh(file, "hull", 32, 40, 0.306f, 1, 0);
+    Json& meshes = file.document["meshes"];
+    meshes[0]["primitives"].push_back(meshes[1]["primitives"][0]);
+    file.document["scenes"][0]["nodes"] = {0};
+    hulls = 1;
+    named = "primitive 1 of node \"body\" lies close around";
+  }
+  SECTION("a room") {
+    add_tube_mesh(file, "room", 32, 40, 0.6f, 1, 0);
+  }
+  const std::vector<std::string> warnings = import_static_scene(file.glb()).warnings;
+  CHECK(std::size_t(std::count_if(warnings.begin(), warnings.end(), [](const std::string& text) {
+          return contains(text, "turns its faces inside");
+        })) == hulls);
+  if (hulls > 0) CHECK(has_warning(warnings, named));
+  CHECK(coincident(file) == 0);
+}
+
 TEST_CASE("where nodes share a name, the names of their meshes replace it") {
   GltfBuilder file = empty_scene();
   add_tube_mesh(file, "body", 32, 40, 0.3f);
