@@ -8,6 +8,7 @@
 #include <span>
 
 #include "bakers/character/auto_poses.h"
+#include "bakers/character/mesh_choice.h"
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/pose_variants.h"
 #include "bakers/character/rig_anatomy.h"
@@ -118,13 +119,6 @@ std::vector<std::size_t> clips_of_bits(const ImportedCharacter& character, const
     if (digit >> (i % 4) & 1) clips.push_back(order[i]);
   }
   return clips;
-}
-
-// The order of names and repeated names do not matter, so sort them and remove duplicates.
-std::vector<std::string> sorted_names(std::vector<std::string> names) {
-  std::sort(names.begin(), names.end());
-  names.erase(std::unique(names.begin(), names.end()), names.end());
-  return names;
 }
 
 // Reads the mesh selection from the JSON of a recipe.
@@ -245,8 +239,7 @@ std::string recipe_text(const ImportedCharacter& character, const Recipe& recipe
   j["generation"] = recipe.generation;
   j["single_joint_steps"] = recipe.single_joint_steps;
   j["extra_poses"] = recipe.extra_poses;
-  if (!recipe.meshes.only.empty()) j["meshes"]["only"] = sorted_names(recipe.meshes.only);
-  if (!recipe.meshes.without.empty()) j["meshes"]["without"] = sorted_names(recipe.meshes.without);
+  store_meshes(j, recipe.meshes);
   if (!recipe.rig.empty()) j["rig"] = Json::parse(rig_text(character.mesh, recipe.rig));
   j["seed"] = s.seed;
   j["rays"] = s.rays;

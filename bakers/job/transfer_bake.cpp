@@ -1,10 +1,10 @@
 #include "bakers/job/transfer_bake.h"
-
 #include <nook/experimental/nook_bake_materials.h>
 
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "bakers/character/mesh_choice.h"
 #include "bakers/import/content_hash.h"
 #include "bakers/import/surface_mesh.h"
 #include "platform/peak_memory.h"
@@ -149,6 +149,7 @@ BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progre
   const char* const form = task.material ? "paper" : "separated";
   Json recipe;
   if (!task.source.empty()) recipe["source"] = task.source;
+  store_meshes(recipe, task.meshes);
   recipe["form"] = form;
   recipe["bounces"] = task.settings.bounces;
   recipe["rays"] = 6 * task.settings.side * task.settings.side;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "bakers/import/import_options.h"
 #include "bakers/job/bake_identity.h"
 #include "bakers/job/baked_file.h"
 #include "bakers/transfer/paper_bake.h"
@@ -18,6 +19,7 @@ struct TransferTask {
   std::shared_ptr<const nook::material::MaterialTables> material;
   transfer::PaperSettings paper;
   std::string source;                 // the name of the file, if there is one
+  MeshSelection meshes;               // the choice of meshes of the file
   std::string material_hash;          // SHA-256 of the material's file; empty without a material
   std::vector<std::string> warnings;  // warnings of the import
 };

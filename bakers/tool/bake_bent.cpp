@@ -36,7 +36,8 @@ bake::BakedFile bake(const Options& o, const bake::ImportedCharacter& character,
 
 PreparedBake prepare(const Options& o) {
   const std::vector<std::byte> bytes = read_file(o.model);
-  bake::ImportedCharacter character = read_character(o.input, with_stored_meshes(o.reading, bytes), o.common);
+  bake::ImportedCharacter character =
+      read_character(o.input, with_stored_meshes(o.reading, o.model, bytes, o.common), o.common);
   CharacterModel model = naming_file(o.model, [&] { return bake::model_of_character(bytes, character); });
   const bake::BakeIdentity identity = bake::identify_bent(character, bytes, o.task);
   return {identity, [&o, character = std::move(character), model = std::move(model), identity] {

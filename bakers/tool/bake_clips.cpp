@@ -44,7 +44,7 @@ bake::BakedFile bake(const Options& o, const Inputs& in) {
 PreparedBake prepare(const Options& o) {
   Inputs in;
   const std::vector<std::byte> bytes = read_file(o.model);
-  in.character = read_character(o.input, with_stored_meshes(o.reading, bytes), o.common);
+  in.character = read_character(o.input, with_stored_meshes(o.reading, o.model, bytes, o.common), o.common);
   require_clips(o.task.clips, in.character);
   in.model = naming_file(o.model, [&] { return bake::model_of_character(bytes, in.character); });
   naming_file(o.input, [&] {

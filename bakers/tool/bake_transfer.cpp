@@ -44,6 +44,7 @@ bake::TransferTask read_task(const Options& o) {
   if (!o.votf.empty())
     task.settings.holes = naming_file(o.votf, [&] { return bake::holes_of_material(read_file(o.votf)); });
   task.source = o.input.filename().string();
+  task.meshes = o.reading.meshes;
   task.warnings = std::move(imported.warnings);
   if (!o.common.quiet)
     for (const std::string& warning : task.warnings)

@@ -13,6 +13,7 @@
 #include "bakers/tool/command_line.h"
 #include "bakers/tool/commands.h"
 #include "bakers/tool/evaluation.h"
+#include "bakers/tool/stored_meshes.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/material/material_check.h"
@@ -38,8 +39,10 @@ struct Options {
 
 void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer::Transfer& baked) {
   if (!measure::is_baked_mesh(mesh, baked))
-    throw ToolError(exit_bad_input, o.transfer.string() + ": was baked from another mesh than " +
-                                        o.mesh.string() + "; bake the transfer again");
+    throw ToolError(exit_bad_input,
+                    o.transfer.string() + ": was baked from another mesh than " + o.mesh.string() +
+                        "; bake the transfer again, or choose the meshes of its bake (--mesh, "
+                        "--without)");
 }
 
 // The light transport of the truth. It is the same as in the file, with the material on the shape.
@@ -73,10 +76,12 @@ std::optional<measure::RawReflectance> read_raw(const Options& o) {
 
 Json evaluate(const Options& o) {
   platform::ProgressBar bar(o.common.quiet);
-  const bake::SurfaceMesh mesh =
-      naming_file(o.mesh, [&] { return bake::import_surface(o.mesh, o.reading); }).mesh;
   const std::vector<std::byte> bytes = read_file(o.transfer), material_bytes = read_file(o.material);
   const transfer::Transfer baked = naming_file(o.transfer, [&] { return transfer::read_transfer(bytes); });
+  const bake::ImportOptions reading =
+      with_stored_meshes(o.reading, o.transfer, std::string_view(baked.recipe), o.common);
+  const bake::SurfaceMesh mesh =
+      naming_file(o.mesh, [&] { return bake::import_surface(o.mesh, reading); }).mesh;
   check_mesh(o, mesh, baked);
   const material::MaterialTables tables = naming_file(o.material, [&] {
     return material::make_tables(material::read_material(material_bytes), {}, default_memory());

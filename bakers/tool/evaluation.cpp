@@ -51,8 +51,8 @@ std::vector<NamedFile> named_files(const EvaluatedFiles& files) {
 measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files, const CommonOptions& options) {
   // The model may have been baked from only some of the meshes.
   auto bytes = read_file(files.model);
-  bake::ImportedCharacter imported =
-      read_character(files.character, with_stored_meshes(files.reading, bytes), options);
+  bake::ImportedCharacter imported = read_character(
+      files.character, with_stored_meshes(files.reading, files.model, bytes, options), options);
   return naming_file(files.model,
                      [&] { return measure::read_baked_character(std::move(imported), std::move(bytes)); });
 }

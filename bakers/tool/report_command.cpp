@@ -16,6 +16,7 @@
 #include "bakers/tool/evaluation.h"
 #include "bakers/tool/inspect/describe.h"
 #include "bakers/tool/results/report_all.h"
+#include "bakers/tool/stored_meshes.h"
 #include "platform/output_file.h"
 #include "platform/progress_bar.h"
 #include "platform/stopwatch.h"
@@ -163,8 +164,10 @@ report::PageParts transfer_of(const Job& job, std::span<const std::byte> bytes) 
                   "the .glb or .gltf file that it was baked from");
   require_shape(job, "radiance transfer");
   const transfer::Transfer baked = transfer::read_transfer(bytes);
-  const bake::ImportedSurface surface = naming_file(
-      job.sources.shape, [&] { return bake::import_surface(job.sources.shape, job.options.reading); });
+  const bake::ImportOptions reading = with_stored_meshes(job.options.reading, job.options.file,
+                                                         std::string_view(baked.recipe), job.options.common);
+  const bake::ImportedSurface surface =
+      naming_file(job.sources.shape, [&] { return bake::import_surface(job.sources.shape, reading); });
   print_warnings(job.sources.shape, surface.warnings, job.options.common);
   job.show_shape();
   return report::transfer_parts(bytes.size(), baked, surface.mesh);

@@ -1,21 +1,48 @@
 #include "bakers/tool/stored_meshes.h"
 
-#include <string_view>
+#include <cstdio>
+#include <string>
 
 #include "bakers/character/recipe.h"
+#include "platform/printable.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::tool {
+namespace {
 
-bake::ImportOptions with_stored_meshes(bake::ImportOptions reading, std::span<const std::byte> model_bytes) {
-  if (!reading.meshes.only.empty() || !reading.meshes.without.empty()) return reading;
+bool chooses(const bake::MeshSelection& meshes) {
+  return !meshes.only.empty() || !meshes.without.empty();
+}
+
+std::string options_of(const bake::MeshSelection& meshes) {
+  std::string text;
+  for (const std::string& name : meshes.only) text += " --mesh \"" + name + "\"";
+  for (const std::string& name : meshes.without) text += " --without \"" + name + "\"";
+  return text;
+}
+
+}  // namespace
+
+bake::ImportOptions with_stored_meshes(bake::ImportOptions reading, const std::filesystem::path& baked,
+                                       std::string_view recipe, const CommonOptions& common) {
+  if (chooses(reading.meshes)) return reading;
+  reading.meshes = bake::stored_meshes(recipe);
+  if (chooses(reading.meshes) && !common.quiet)
+    std::fprintf(stderr, "nook: %s: was baked with%s; the same meshes are read now\n",
+                 platform::printable(baked.string()).c_str(),
+                 platform::printable(options_of(reading.meshes)).c_str());
+  return reading;
+}
+
+bake::ImportOptions with_stored_meshes(bake::ImportOptions reading, const std::filesystem::path& baked,
+                                       std::span<const std::byte> model_bytes, const CommonOptions& common) {
   try {
-    reading.meshes = bake::stored_meshes(std::string_view(read_character_model(model_bytes).recipe));
+    const CharacterModel model = read_character_model(model_bytes);
+    return with_stored_meshes(std::move(reading), baked, std::string_view(model.recipe), common);
   } catch (const Failure&) {
     return reading;
   }
-  return reading;
 }
 
 }  // namespace nook::tool
