@@ -35,6 +35,7 @@ struct Options {
   bool composite = false, silhouettes = false;
   std::vector<std::filesystem::path> scenes;  // in addition to the built-in room
   std::vector<float> scene_metres;            // unit of each scene
+  bake::MeshSelection scene_meshes;           // of all scenes
   measure::CompositeStudy rooms;
   std::vector<std::filesystem::path> lights;
 };
@@ -43,9 +44,10 @@ std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
   std::vector<measure::MeasuredRoom> rooms{{"room", measure::own_room()}};
   for (std::size_t i = 0; i < options.scenes.size(); ++i) {
     const float metres = i < options.scene_metres.size() ? options.scene_metres[i] : 1;
+    const bake::ImportOptions reading{options.files.reading.linked, options.scene_meshes};
     std::vector<std::string> warnings;
     rooms.push_back({options.scenes[i].stem().string(), naming_file(options.scenes[i], [&] {
-                       return measure::room_of(options.scenes[i], metres, warnings);
+                       return measure::room_of(options.scenes[i], metres, reading, warnings);
                      })});
     print_warnings(options.scenes[i], warnings, options.common);
   }
@@ -186,6 +188,17 @@ void add_evaluate_world(Command evaluate_command) {
       .check(existing_file());
   command.add_option("--scene-metres", o.scene_metres, "metres per unit of each --scene; default 1")
       .check(in_range(1e-4f, 1e4f));
+  command
+      .add_option("--scene-mesh", o.scene_meshes.only,
+                  "read only the meshes of this name from each --scene, matched as in --mesh, which chooses "
+                  "meshes of the character")
+      .one_each()
+      .type_name("NAME");
+  command
+      .add_option("--scene-without", o.scene_meshes.without,
+                  "leave out the meshes of this name from each --scene, such as a ceiling")
+      .one_each()
+      .type_name("NAME");
   command.add_option("--views", o.rooms.views, "number of views of each room")
       .check(in_range(1, 1000))
       .capture_default_str();

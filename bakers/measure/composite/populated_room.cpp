@@ -199,8 +199,8 @@ TriangleSoup own_room() {
 }
 
 bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit,
-                           std::vector<std::string>& warnings) {
-  StaticScene scene = import_static_scene(file);
+                           const ImportOptions& reading, std::vector<std::string>& warnings) {
+  StaticScene scene = import_static_scene(file, SceneTextures::skip, reading);
   warnings.insert(warnings.end(), scene.warnings.begin(), scene.warnings.end());
   for (Vec3& p : scene.position) p = metres_per_unit * p;
   return {std::move(scene.position), std::move(scene.triangle)};

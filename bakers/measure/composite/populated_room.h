@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "bakers/import/import_options.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/nnao/cameras.h"
 #include "bakers/raytrace/ray_scene.h"
@@ -17,9 +18,10 @@ namespace nook::measure {
 bake::TriangleSoup own_room();
 
 // Reads the triangles of a glTF file with +y up. `metres_per_unit` is the length of the file's unit. Appends
-// the warnings of the import. Throws Failure (BAD_FILE).
+// the warnings of the import. Throws Failure: BAD_FILE, and INVALID_ARGUMENT if a name of the mesh selection
+// matches nothing.
 bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit,
-                           std::vector<std::string>& warnings);
+                           const bake::ImportOptions& reading, std::vector<std::string>& warnings);
 
 // A placed character. World space, metres, +y up.
 struct Figure {
