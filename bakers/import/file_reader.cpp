@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "bakers/import/draco_meshes.h"
+#include "bakers/import/json_types.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -147,12 +148,21 @@ const std::string* file_uri(const Json& entry) {
   return text.starts_with("data:") ? nullptr : &text;
 }
 
-void check_buffers(const Json& document, std::set<std::string>& files) {
+// True for a buffer whose bytes are nowhere in the file, which glTF 2.0 allows (section 3.6.1.1). Only a
+// binary file has bytes for its first buffer without a URI.
+bool has_no_bytes(const Json& buffers, std::size_t index, bool is_binary) {
+  const Json& buffer = buffers[index];
+  return buffer.is_object() &&
+         (is_fallback_buffer(buffer) || (!buffer.contains("uri") && !(is_binary && index == 0)));
+}
+
+void check_buffers(const Json& document, bool is_binary, std::set<std::string>& files) {
   const auto buffers = document.find("buffers");
   if (buffers == document.end() || !buffers->is_array()) return;
   std::uint64_t total = 0;
-  for (const Json& buffer : *buffers) {
-    if (!buffer.is_object() || is_fallback_buffer(buffer)) continue;
+  for (std::size_t b = 0; b < buffers->size(); ++b) {
+    const Json& buffer = (*buffers)[b];
+    if (!buffer.is_object() || has_no_bytes(*buffers, b, is_binary)) continue;
     const auto length = buffer.find("byteLength");
     if (length != buffer.end() && length->is_number()) {
       const double bytes = length->get<double>();
@@ -211,22 +221,25 @@ bool drop_draco_indices(Json& document) {
 }
 
 // Replaces names of files and buffers without bytes, if there is one that the parser would misread.
-void replace_uris(Json& document, GltfPreflight& result) {
-  bool is_needed = drop_draco_indices(document);
+// is_changed: the document already differs from the file's.
+void replace_uris(Json& document, bool is_binary, bool is_changed, GltfPreflight& result) {
+  bool is_needed = drop_draco_indices(document) || is_changed;
   const auto for_each = [&](const char* list, const auto& visit) {
     const auto entries = document.find(list);
-    if (entries != document.end() && entries->is_array())
-      for (Json& entry : *entries) visit(entry);
+    if (entries == document.end() || !entries->is_array()) return;
+    const bool are_buffers = std::string_view(list) == "buffers";
+    for (std::size_t i = 0; i < entries->size(); ++i)
+      visit((*entries)[i], are_buffers && has_no_bytes(*entries, i, is_binary));
   };
-  const auto look = [&](const Json& entry) {
+  const auto look = [&](const Json& entry, bool is_room) {
     const std::string* uri = file_uri(entry);
-    is_needed = is_needed || (uri && !is_decoded_alike(*uri)) || is_fallback_buffer(entry);
+    is_needed = is_needed || (uri && !is_decoded_alike(*uri)) || is_room;
   };
   for_each("buffers", look);
   for_each("images", look);
   if (!is_needed) return;
-  const auto replace = [&](Json& entry) {
-    if (is_fallback_buffer(entry)) {
+  const auto replace = [&](Json& entry, bool is_room) {
+    if (is_room) {
       const std::string room = "room-" + std::to_string(result.rooms.size());
       result.rooms.insert(room);
       entry["uri"] = room;
@@ -244,7 +257,7 @@ void replace_uris(Json& document, GltfPreflight& result) {
 
 }  // namespace
 
-GltfPreflight check_before_parsing(std::span<const std::byte> json) {
+GltfPreflight check_before_parsing(std::span<const std::byte> json, bool is_binary) {
   check_structure(json);
   const char* first = reinterpret_cast<const char*>(json.data());
   Json document = Json::parse(first, first + json.size(), nullptr, false);
@@ -252,10 +265,11 @@ GltfPreflight check_before_parsing(std::span<const std::byte> json) {
   if (!document.is_object()) return result;
   check_version(document);
   check_extensions(document);
-  check_buffers(document, result.buffer_files);
+  const bool is_changed = require_member_types(document);
+  check_buffers(document, is_binary, result.buffer_files);
   result.compressed_views = find_compressed_views(document);
   result.matrix_beside_trs = nodes_of_two_transforms(document);
-  replace_uris(document, result);
+  replace_uris(document, is_binary, is_changed, result);
   return result;
 }
 

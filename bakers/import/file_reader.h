@@ -27,7 +27,7 @@ struct GltfPreflight {
   std::vector<CompressedView> compressed_views;
   std::vector<std::size_t> matrix_beside_trs;  // nodes with two transforms; the parser drops one
   // The JSON that the parser gets; empty: the file's own. The parser decodes URIs in its own way. It needs
-  // bytes even for buffers that are only room for decompressed views, and for indices.
+  // bytes even for buffers without a URI, such as the room for decompressed views, and for indices.
   std::string replacement;
   std::map<std::string, std::string> names;  // names of files, by their URI in the replacement
   std::set<std::string> rooms;               // URIs of the buffers without bytes
@@ -37,9 +37,10 @@ struct GltfPreflight {
 //   - nesting deeper than 128 levels, or more than 2^24 values;
 //   - versions other than 2.x, or a minimum above 2.0;
 //   - extensions that the file requires and that we do not read; the message names a tool that removes them;
-//   - buffers of more than max_file_bytes in all.
+//   - buffers of more than max_file_bytes in all;
+//   - members of a wrong type that decide shapes or poses (json_types.h).
 // The parser reports anything else. The time is linear in the text.
-GltfPreflight check_before_parsing(std::span<const std::byte> json);
+GltfPreflight check_before_parsing(std::span<const std::byte> json, bool is_binary);
 
 // Reads a file that a user named, up to max_file_bytes. It may be a pipe. Fails with BAD_FILE.
 std::vector<std::byte> read_file_bytes(const std::filesystem::path& path);

@@ -94,17 +94,51 @@ std::string name_of_node(const tinygltf::Model& model, std::size_t node) {
   return "node " + std::to_string(node) + (name.empty() ? "" : ", \"" + name.substr(0, 80) + "\"");
 }
 
+// A matrix in the order of its columns must end in the row 0 0 0 1. glTF 2.0, sections 3.5.2 and 3.7.3.1.
+template <typename Number>
+bool has_last_row(const Number* matrix) {
+  constexpr double tolerance = 1e-4;  // exporters write six digits or more
+  for (std::size_t column = 0; column < 4; ++column)
+    if (!(std::abs(double(matrix[4 * column + 3]) - (column == 3 ? 1 : 0)) <= tolerance)) return false;
+  return true;
+}
+
+void look_at_skins(const tinygltf::Model& model, std::vector<std::string>& warnings) {
+  Fault last_row;
+  std::size_t left = std::size_t{1} << 22;  // matrices; skins may share them
+  for (std::size_t s = 0; s < model.skins.size(); ++s) {
+    const int accessor = model.skins[s].inverseBindMatrices;
+    if (accessor < 0 || std::size_t(accessor) >= model.accessors.size()) continue;
+    const std::size_t count = model.accessors[std::size_t(accessor)].count;
+    if (count > left) continue;
+    left -= count;
+    try {
+      const Floats matrices = read_floats(model, accessor, 16, "inverse bind matrices");
+      for (std::size_t m = 0; m + 16 <= matrices.value.size(); m += 16)
+        if (!has_last_row(&matrices.value[m])) {
+          last_row.add("skin " + std::to_string(s) + " matrix " + std::to_string(m / 16));
+          break;
+        }
+    } catch (const Failure&) {
+    }
+  }
+  warn(warnings, last_row,
+       "skins have inverse bind matrices whose last row is not 0 0 0 1; the row was not used");
+}
+
 void look_at_nodes(const tinygltf::Model& model, std::vector<std::string>& warnings) {
-  Fault both, not_unit;
+  Fault both, not_unit, last_row;
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
     const tinygltf::Node& node = model.nodes[n];
     if (!node.matrix.empty() && !(node.translation.empty() && node.rotation.empty() && node.scale.empty()))
       both.add(name_of_node(model, n));
+    if (node.matrix.size() == 16 && !has_last_row(node.matrix.data())) last_row.add(name_of_node(model, n));
     double square = 0;
     for (const double q : node.rotation) square += q * q;
     // Exporters write six digits or more.
     if (!node.rotation.empty() && !(std::abs(square - 1) < 1e-3)) not_unit.add(name_of_node(model, n));
   }
+  warn(warnings, last_row, "nodes have a matrix whose last row is not 0 0 0 1; the row was not used");
   warn(warnings, both, "nodes have a matrix beside translation, rotation or scale; the matrix was taken");
   warn(warnings, not_unit, "nodes have a rotation that is not a unit quaternion; it was normalised");
 }
@@ -209,6 +243,7 @@ void check_types(const tinygltf::Model& model) {
 std::vector<std::string> document_warnings(const tinygltf::Model& model) {
   std::vector<std::string> warnings;
   look_at_nodes(model, warnings);
+  look_at_skins(model, warnings);
   look_at_primitives(model, warnings);
   return warnings;
 }

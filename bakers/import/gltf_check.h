@@ -16,6 +16,7 @@ void check_types(const tinygltf::Model& model);
 // Returns one sentence for each kind of fault that the import repairs or ignores:
 //   - rotations that are not unit quaternions;
 //   - a matrix beside translation, rotation or scale;
+//   - matrices of nodes and skins whose last row is not 0 0 0 1;
 //   - indices that mean a primitive restart;
 //   - bounds that do not match;
 //   - attributes of forbidden types.

@@ -149,7 +149,8 @@ tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& f
   if (bytes.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "empty file");
   if (bytes.size() > 0x7fffffffu)
     throw Failure(NOOK_ERROR_BAD_FILE, "file of %zu bytes (need less than 2 GiB)", bytes.size());
-  const GltfPreflight preflight = check_before_parsing(is_binary(bytes) ? json_of_binary(bytes) : bytes);
+  const GltfPreflight preflight =
+      check_before_parsing(is_binary(bytes) ? json_of_binary(bytes) : bytes, is_binary(bytes));
   std::vector<std::byte> replaced;
   if (!preflight.replacement.empty()) {
     replaced = with_json(bytes, preflight.replacement);

@@ -220,6 +220,42 @@ void note_levels(const tinygltf::Model& model, const std::vector<NodeState>& sta
     notes.push_back("every mesh is named as a lower level of detail; the finest was taken: " + listed(taken));
 }
 
+void note_other_scenes(const tinygltf::Model& model, const std::vector<NodeState>& state,
+                       std::vector<std::string>& notes) {
+  if (const auto names = names_of(model, state, NodeState::other_scene); !names.empty())
+    notes.push_back(counted(names.size(), " mesh is not in the default scene and was left out: ",
+                            " meshes are not in the default scene and were left out: ") +
+                    listed(names));
+}
+
+// True where no renderer shows the base colour. Textures multiply it.
+bool is_transparent(const tinygltf::Model& model, int material) {
+  if (material < 0 || std::size_t(material) >= model.materials.size()) return false;
+  const tinygltf::Material& m = model.materials[std::size_t(material)];
+  const std::vector<double>& colour = m.pbrMetallicRoughness.baseColorFactor;
+  return m.alphaMode == "BLEND" && colour.size() == 4 && colour[3] == 0;
+}
+
+// Hulls for physics and clicks are often hidden in this way.
+void note_transparent(const tinygltf::Model& model, const std::vector<NodeState>& state,
+                      std::vector<std::string>& notes) {
+  std::vector<std::string> names;
+  for (std::size_t n = 0; n < state.size(); ++n) {
+    if (state[n] != NodeState::in) continue;
+    const auto& primitives = model.meshes[std::size_t(model.nodes[n].mesh)].primitives;
+    if (!primitives.empty() &&
+        std::all_of(primitives.begin(), primitives.end(),
+                    [&](const tinygltf::Primitive& p) { return is_transparent(model, p.material); }))
+      names.push_back(node_label(model, n));
+  }
+  if (names.empty()) return;
+  const std::string first = names.front();
+  notes.push_back(counted(names.size(),
+                          " mesh has a material of alpha 0, but darkens others as a solid one does: ",
+                          " meshes have materials of alpha 0, but darken others as solid ones do: ") +
+                  listed(names) + "; to leave out what nobody shall see: --without \"" + first + "\"");
+}
+
 struct InstanceAttributes {
   std::string what;
   int translation = -1, rotation = -1, scale = -1;
@@ -406,7 +442,9 @@ ShownNodes choose_nodes(const tinygltf::Model& model, const NodeTree& nodes, con
       out.notes.push_back(counted(names.size(), " mesh is ", " meshes are ") + reason.text +
                           (names.size() == 1 ? " and was left out: " : " and were left out: ") +
                           listed(names));
+  note_other_scenes(model, out.state, out.notes);
   note_levels(model, out.state, states.level, !selection.only.empty(), out.notes);
+  note_transparent(model, out.state, out.notes);
   return out;
 }
 

@@ -5,6 +5,7 @@ must give, and the AO by ray tracing.
 Writes the files into FOLDER. Exit code 3 is a refusal; code 0 with words is a repair or a note. A line without words
 must print no warning at all. The AO of a file that says which plain file shows the same body is equal to the AO of that
 file; COMPARE is the program compare_ao."""
+import json
 import os
 import pathlib
 import struct
@@ -122,6 +123,31 @@ def second_body(name, **node_words):
     return edited(change)
 
 
+def pushed_copy(push, inside=True, is_open=False, primitive=False):
+    """The column again, pushed outwards by `push`, as the hull of a toon outline is: its faces look inside. is_open: without
+    its ends; primitive: in the same mesh."""
+    def change(file, document):
+        body = document["meshes"][0]["primitives"][0]
+        position = list(struct.unpack_from("<480f", file.data, document["bufferViews"][0]["byteOffset"]))
+        view = document["bufferViews"][3]
+        index = list(struct.unpack_from(f"<{view['byteLength'] // 2}H", file.data, view["byteOffset"]))
+        middle = [0, 1, 0]
+        for i, x in enumerate(position):
+            if i % 3 != 1 or x in (0, 2):
+                position[i] += push if x > middle[i % 3] else -push
+        if is_open:
+            index = index[:-12]
+        copy = {"attributes": {**body["attributes"], "POSITION": file.add(position, "VEC3")},
+                "indices": file.add(turned(index) if inside else index, "SCALAR", U16)}
+        if primitive:
+            document["meshes"][0]["primitives"].append(copy)
+            return
+        document["meshes"].append({"name": "black", "primitives": [copy]})
+        document["nodes"].append({"name": "outline", "mesh": 1, "skin": 0})
+        document["nodes"][0]["children"].append(4)
+    return edited(change)
+
+
 def hidden_parent(file, document):
     document["nodes"] += [{"name": "hull", "mesh": 0, "skin": 0},
                           {"children": [4], "extensions": {"KHR_node_visibility": {"visible": False}}}]
@@ -152,6 +178,52 @@ def buffer_in(uri, stored, link=None):
 
 def no_change(file, document):
     pass
+
+
+def fractions(file, document):
+    """Whole numbers as 1.0, which glTF allows."""
+    for accessor in document["accessors"]:
+        accessor["count"] = float(accessor["count"])
+    document["nodes"][3].update(mesh=0.0, skin=0.0)
+    document["nodes"][0]["children"] = [1.0, 3.0]
+    document["skins"][0]["joints"] = [1.0, 2.0]
+
+
+def inverse_bind(*changes):
+    """The second matrix with other numbers, by their index."""
+    def change(file, document):
+        matrix = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 1]
+        for index, number in changes:
+            matrix[index] = number
+        identity = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+        document["skins"][0]["inverseBindMatrices"] = file.add(identity + matrix, "MAT4")
+    return edited(change)
+
+
+def second_scene(file, document):
+    """A sword in a scene of its own, and no default scene."""
+    document["nodes"].append({"name": "sword", "mesh": 0, "skin": 0})
+    document["scenes"].append({"nodes": [4]})
+    document.pop("scene")
+
+
+def transparent_hull(file, document):
+    document["materials"] = [{"alphaMode": "BLEND", "pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 0]}}]
+    hull = {**document["meshes"][0]["primitives"][0], "material": 0}
+    document["meshes"].append({"name": "physics", "primitives": [hull]})
+    document["nodes"].append({"name": "hull", "mesh": 1, "skin": 0})
+    document["nodes"][0]["children"].append(4)
+
+
+def room_without_bytes(folder, name):
+    """A .gltf whose second buffer has no URI, which glTF allows; nothing reads it."""
+    file = column()
+    file.write(folder / f"{name}.gltf", f"{name}.bin")
+    (folder / f"{name}.bin").write_bytes(file.data)
+    document = json.loads((folder / f"{name}.gltf").read_text())
+    document["buffers"].append({"byteLength": 4096})
+    (folder / f"{name}.gltf").write_text(json.dumps(document))
+    return f"{name}.gltf"
 
 
 def sparse_floats(file, document):
@@ -195,6 +267,7 @@ def mirrored(positions=False, corners=False, normals=False, matrices=False, **sc
 # Name, how the file is made, options of the command, exit code, words of its message or warnings; and for a file that
 # shows the body of another one, the name of that file.
 INSIDE_OUT = ['a closed part of node "body" (mesh "column" primitive 0', "is inside out"]
+OUTLINE = ['"outline" lies close around', 'of node "body"', '--without "outline"']
 CASES = [
     ("plain", edited(no_change), [], 0, []),
     # Versions.
@@ -231,13 +304,43 @@ CASES = [
     ("times_falling", key_times(0, 2, 1), [], 3, ["key times that go back"]),
     ("bounds_false", edited(lambda f, d: d["accessors"][0].update(min=[-1, 0, -1], max=[1, 1, 1])), [], 0,
      ["min and max that do not match"], "plain"),
+    ("row_of_node", node(0, matrix=[1, 0, 0, 0.5, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]), [], 0, ["last row is not 0 0 0 1", 'node 0, "armature"'], "plain"),
+    ("row_of_skin", inverse_bind((3, 1)), [], 0, ["last row is not 0 0 0 1", "skin 0 matrix 1"], "plain"),
+    ("row_of_skin_half", inverse_bind((15, 0.5)), [], 0, ["last row is not 0 0 0 1"], "plain"),
+    # Types of members.
+    ("fractions", edited(fractions), [], 0, [], "plain"),
+    ("scale_string", node(0, scale="2"), [], 3, ["nodes[0].scale is a string (need an array)"]),
+    ("scale_of_strings", node(0, scale=["2", "2", "2"]), [], 3, ["nodes[0].scale[0] is a string (need a number)"]),
+    ("skin_string", node(3, skin="0"), [], 3, ["nodes[3].skin is a string (need a whole number)"]),
+    ("skin_half", node(3, skin=0.5), [], 3, ["nodes[3].skin is a number (need a whole number)"]),
+    ("skin_null", node(0, skin=None), [], 0, [], "plain"),
+    ("children_number", node(1, children=2), [], 3, ["nodes[1].children is a number (need an array)"]),
+    ("nodes_object", edited(lambda f, d: d.update(nodes={"0": {}})), [], 3, ["nodes is an object (need an array)"]),
+    ("required_object", edited(lambda f, d: d.update(extensionsRequired={"A": 1})), [], 3, ["extensionsRequired is an object"]),
+    ("normalized_string", edited(lambda f, d: d["accessors"][2].update(normalized="no")), [], 3, ["accessors[2].normalized is a string"]),
+    ("joints_of_strings", edited(lambda f, d: d["skins"][0].update(joints=["1", "2"])), [], 3, ["skins[0].joints[0] is a string"]),
+    ("attribute_string", edited(lambda f, d: d["meshes"][0]["primitives"][0]["attributes"].update(POSITION="0")), [], 3,
+     ["meshes[0].primitives[0].attributes.POSITION is a string"]),
+    ("target_list", edited(lambda f, d: d["animations"][0]["channels"][0].update(target=[])), [], 3, ["animations[0].channels[0].target is an array"]),
+    ("buffer_without_uri", room_without_bytes, [], 0, [], "plain"),
     # Which meshes are in.
+    ("second_scene", edited(second_scene), [], 0, ["not in the default scene", "sword"], "plain"),
+    ("transparent", edited(transparent_hull), [], 0, ["alpha 0", '--without "hull"']),
+    ("transparent_without", edited(transparent_hull), ["--without", "hull"], 0, []),
     ("hidden", second_body("hull", extensions={"KHR_node_visibility": {"visible": False}}), [], 0, ["hidden by KHR_node_visibility", "hull"], "plain"),
     ("hidden_parent", edited(hidden_parent), [], 0, ["hidden by KHR_node_visibility", "hull"], "plain"),
     ("lod1", second_body("body_LOD1"), [], 0, ["lower level of detail", "body_LOD1"], "plain"),
     ("lod2_lower_case", second_body("body.lod2"), [], 0, ["lower level of detail", "body.lod2"], "plain"),
     ("copy", second_body("copy"), [], 0, ["lie on each other"]),
     ("copy_without", second_body("copy"), ["--without", "copy"], 0, []),
+    *[(f"outline_{name}", pushed_copy(push, **how), [], 0, words) for name, push, how, words in (
+        ("hull", 0.01, {}, OUTLINE), ("hull_open", 0.01, {"is_open": True}, OUTLINE), ("hull_thin", 0.002, {}, OUTLINE),
+        ("primitive", 0.01, {"primitive": True}, ['primitive 1 of node "body" lies close around', "of primitive 0", "remove it from the mesh"]),
+        ("outside", 0.01, {"inside": False}, ['nodes "body" and "outline" lie on each other', '--without "outline"']))],
+    # Both sides of a sheet, as some exporters write two-sided cloth. Rays begin beyond it.
+    ("outline_sheet", pushed_copy(0), [], 0, [], "plain"),
+    ("outline_far", pushed_copy(0.2), [], 0, ["is inside out"]),
+    ("outline_without", pushed_copy(0.01), ["--without", "outline"], 0, []),
     ("instances", edited(instances), [], 0, []),
     # Mirrored rigs.
     *[(f"{name}{'' if has else '_no_normals'}", mirrored(normals=has, **how), [], 0, [], "plain") for has in (True, False)
