@@ -185,12 +185,19 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
                                        index_size, false, what + " (sparse indices)");
   const Strided values = checked_view(model, sparse.values.bufferView, sparse.values.byteOffset, count,
                                       element_size, false, what + " (sparse values)");
+  std::uint32_t before = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const std::uint32_t element =
         load_integer(indices.first + i * index_size, sparse.indices.componentType, what);
     if (element >= accessor.count)
       throw Failure(NOOK_ERROR_BAD_FILE, "%s: sparse index %u (accessor has %zu elements)", what.c_str(),
                     element, accessor.count);
+    // glTF 2.0, section 3.6.2.3.
+    if (i > 0 && element <= before)
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s: sparse indices do not increase (got %u after %u); export the file again",
+                    what.c_str(), element, before);
+    before = element;
     if (element < wanted) store_element(element, values.first + i * element_size);
   }
 }

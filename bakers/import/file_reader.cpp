@@ -156,21 +156,43 @@ bool has_no_bytes(const Json& buffers, std::size_t index, bool is_binary) {
          (is_fallback_buffer(buffer) || (!buffer.contains("uri") && !(is_binary && index == 0)));
 }
 
-void check_buffers(const Json& document, bool is_binary, std::set<std::string>& files) {
+// glTF 2.0, section 3.6.1.1: the bytes of a buffer are application/octet-stream or application/gltf-buffer.
+// The parser takes others for names of files.
+void check_data_uri(const Json& buffer, std::size_t index) {
+  const auto uri = buffer.find("uri");
+  if (uri == buffer.end() || !uri->is_string()) return;
+  const std::string& text = uri->get_ref<const std::string&>();
+  std::string scheme = text.substr(0, 5);
+  for (char& c : scheme) c = c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+  if (scheme == "data:" && !tinygltf::IsDataURI(text))
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "buffers[%zu].uri begins with \"%s\" (need \"data:application/octet-stream;base64,\"); export "
+        "the file again",
+        index, text.substr(0, std::min<std::size_t>(text.find(',') + 1, 60)).c_str());
+}
+
+void check_buffers(const Json& document, bool is_binary, std::map<std::string, std::uint64_t>& files) {
   const auto buffers = document.find("buffers");
   if (buffers == document.end() || !buffers->is_array()) return;
   std::uint64_t total = 0;
   for (std::size_t b = 0; b < buffers->size(); ++b) {
     const Json& buffer = (*buffers)[b];
     if (!buffer.is_object() || has_no_bytes(*buffers, b, is_binary)) continue;
+    check_data_uri(buffer, b);
     const auto length = buffer.find("byteLength");
+    std::uint64_t bytes = 0;
     if (length != buffer.end() && length->is_number()) {
-      const double bytes = length->get<double>();
-      total += bytes > 0 ? std::uint64_t(std::min(bytes, double(max_file_bytes) + 1)) : 0;
+      const double number = length->get<double>();
+      bytes = number > 0 ? std::uint64_t(std::min(number, double(max_file_bytes) + 1)) : 0;
+      total += bytes;
       if (total > max_file_bytes)
         throw Failure(NOOK_ERROR_BAD_FILE, "buffers of more than 2 GiB in all; split the file");
     }
-    if (const std::string* uri = file_uri(buffer)) files.insert(percent_decoded(*uri));
+    if (const std::string* uri = file_uri(buffer)) {
+      std::uint64_t& most = files[percent_decoded(*uri)];
+      most = std::max(most, bytes);
+    }
   }
 }
 
@@ -387,8 +409,11 @@ bool LinkedFileReader::read(const std::string& path, std::vector<unsigned char>&
   }
   std::error_code error;
   const std::filesystem::path named = std::filesystem::path(folder_) / name_of(path);
-  const std::uintmax_t size = std::filesystem::file_size(named, error);
+  std::uintmax_t size = std::filesystem::file_size(named, error);
   if (error || size > left_) return false;
+  // The parser wants a buffer's bytes alone.
+  const auto buffer = preflight_.buffer_files.find(name_of(path));
+  if (buffer != preflight_.buffer_files.end()) size = std::min<std::uintmax_t>(size, buffer->second);
   std::ifstream file(named, std::ios::binary);
   out.resize(std::size_t(size));
   if (!file || !file.read(reinterpret_cast<char*>(out.data()), std::streamsize(size))) {

@@ -23,7 +23,8 @@ namespace nook::bake {
 constexpr std::uint64_t max_file_bytes = std::uint64_t{1} << 31;
 
 struct GltfPreflight {
-  std::set<std::string> buffer_files;  // URIs of the buffers in other files, decoded
+  // The buffers in other files: decoded URIs, and the bytes that are read. A file may be longer.
+  std::map<std::string, std::uint64_t> buffer_files;
   std::vector<CompressedView> compressed_views;
   std::vector<std::size_t> matrix_beside_trs;  // nodes with two transforms; the parser drops one
   // The JSON that the parser gets; empty: the file's own. The parser decodes URIs in its own way. It needs

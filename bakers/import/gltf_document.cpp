@@ -6,6 +6,7 @@
 
 #include "bakers/import/draco_meshes.h"
 #include "bakers/import/file_reader.h"
+#include "bakers/import/foreign_formats.h"
 #include "bakers/import/gltf_check.h"
 #include "bakers/import/meshopt_views.h"
 #include "sdk/src/core/failure.h"
@@ -147,6 +148,8 @@ void restore(const GltfPreflight& preflight, tinygltf::Model& model) {
 
 tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& files, Images images) {
   if (bytes.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "empty file");
+  if (const char* format = foreign_format(bytes))
+    throw Failure(NOOK_ERROR_BAD_FILE, "this is %s, not a glTF file; give a .glb or .gltf file", format);
   if (bytes.size() > 0x7fffffffu)
     throw Failure(NOOK_ERROR_BAD_FILE, "file of %zu bytes (need less than 2 GiB)", bytes.size());
   const GltfPreflight preflight =
@@ -185,7 +188,7 @@ tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& f
     throw Failure(NOOK_ERROR_BAD_FILE, "the file %s", reader.fault().c_str());
   if (!is_loaded)
     throw Failure(NOOK_ERROR_BAD_FILE, "not a glTF 2.0 file, or a damaged one: %s",
-                  error.empty() ? "the parser gives no reason" : one_line(error).c_str());
+                  error.empty() ? "the parser gives no reason" : one_line(error).substr(0, 200).c_str());
   check_names(model);
   restore(preflight, model);
   decompress_views(preflight.compressed_views, model);

@@ -124,6 +124,10 @@ std::uint16_t first_bone(const Influences& influences, const MeshBinding& bindin
   return binding.bone[joint];
 }
 
+[[noreturn]] void refuse_weight(const std::string& what, std::size_t vertex) {
+  throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu has a weight that is not finite", what.c_str(), vertex);
+}
+
 void append_skin_weights(const Influences& influences, const MeshBinding& binding, std::size_t vertices,
                          const std::string& what, FileMesh& out, MeshRepairs& repairs) {
   std::vector<std::pair<std::uint16_t, float>> of_vertex;
@@ -131,13 +135,16 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
     of_vertex.clear();
     double sum = 0;
     std::size_t positive = 0;
+    bool has_nan = false;
     for (std::size_t set = 0; set < influences.joint.size(); ++set)
       for (std::size_t k = 0; k < 4; ++k) {
         const std::uint32_t joint = influences.joint[set].value[4 * v + k];
         const float weight = influences.weight[set].value[4 * v + k];
-        if (!std::isfinite(weight))
-          throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu has a weight that is not finite", what.c_str(),
-                        v);
+        if (std::isnan(weight)) {
+          has_nan = true;
+          continue;
+        }
+        if (!std::isfinite(weight)) refuse_weight(what, v);
         // Unused slots may name any joint.
         if (weight == 0) continue;
         if (weight < 0) {
@@ -152,6 +159,8 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
         ++positive;
       }
     ++repairs.skinned;
+    // Exporters that divide weights by their sum write NaN where all of them are 0.
+    if (has_nan && positive > 0) refuse_weight(what, v);
     if (positive == 0) {
       ++repairs.without_weights;
       of_vertex.push_back({first_bone(influences, binding, v, what), 1.0f});

@@ -54,6 +54,18 @@ std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
   return rooms;
 }
 
+// Other measurements know no rooms, and would leave out the scenes without a word.
+void require_rooms(const Options& options) {
+  const bool has_rooms = options.composite || (!options.lights.empty() && !options.images.empty());
+  if (!options.scenes.empty() && !has_rooms)
+    throw ToolError(exit_bad_arguments,
+                    "--scene is a room to measure in; add --composite, or --light with --images");
+  if (options.scene_metres.size() > options.scenes.size())
+    throw ToolError(exit_bad_arguments, "--scene-metres has " + std::to_string(options.scene_metres.size()) +
+                                            " values for " + std::to_string(options.scenes.size()) +
+                                            " of --scene; give at most one for each");
+}
+
 Json composite_report(const Options& options, const measure::BakedCharacter& baked,
                       std::span<const bake::Pose> poses) {
   platform::ContextRequest request;
@@ -184,29 +196,38 @@ void add_evaluate_world(Command evaluate_command) {
       .check(existing_file())
       .excludes(composite)
       .excludes(silhouettes);
-  command.add_input("--scene", o.scenes, "also measure in this room, a glTF file with +y up")
-      .check(existing_file());
+  const Option scene =
+      command
+          .add_input("--scene", o.scenes,
+                     "with --composite, or with --light and --images: also measure in this room, a glTF file "
+                     "with +y up")
+          .check(existing_file());
   command.add_option("--scene-metres", o.scene_metres, "metres per unit of each --scene; default 1")
-      .check(in_range(1e-4f, 1e4f));
+      .check(in_range(1e-4f, 1e4f))
+      .needs(scene);
   command
       .add_option("--scene-mesh", o.scene_meshes.only,
                   "read only the meshes of this name from each --scene, matched as in --mesh, which chooses "
                   "meshes of the character")
       .one_each()
+      .needs(scene)
       .type_name("NAME");
   command
       .add_option("--scene-without", o.scene_meshes.without,
                   "leave out the meshes of this name from each --scene, such as a ceiling")
       .one_each()
+      .needs(scene)
       .type_name("NAME");
-  command.add_option("--views", o.rooms.views, "number of views of each room")
+  command.add_option("--views", o.rooms.views, "with --composite: number of views of each room")
       .check(in_range(1, 1000))
-      .capture_default_str();
+      .capture_default_str()
+      .needs(composite);
   command.add_option("--figures", o.rooms.figures, "number of characters in each room")
       .check(in_range(1, 100))
       .capture_default_str();
   add_common_options(command, o.common);
   command.callback([options] {
+    require_rooms(*options);
     std::vector<NamedFile> inputs = named_files(options->files);
     for (const std::filesystem::path& light : options->lights) inputs.push_back({"--light", light});
     run_evaluation(options->common, {inputs, {}, options->images}, [&] { return evaluate(*options); });

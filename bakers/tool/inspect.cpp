@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 
+#include "bakers/import/foreign_formats.h"
 #include "bakers/import/gltf_contents.h"
 #include "bakers/measure/character/rig_pictures.h"
 #include "bakers/tool/command_end.h"
@@ -38,6 +39,10 @@ bool is_gltf(const std::vector<std::byte>& bytes) {
   std::size_t i = 0;
   while (i < bytes.size() && std::strchr(" \t\r\n\xef\xbb\xbf", text(i)) && text(i) != 0) ++i;
   return i < bytes.size() && text(i) == '{';
+}
+
+bool is_nook(const std::vector<std::byte>& bytes) {
+  return bytes.size() >= 4 && std::memcmp(bytes.data(), "NOOK", 4) == 0;
 }
 
 // Returns the meshes, skins and clips of a file, and which node each primitive of a bake comes from.
@@ -94,6 +99,10 @@ void run(const Options& options) {
   if (!options.common.report.empty())
     report.emplace(options.common.report, file_events(options.common.quiet));
   std::vector<Table> tables;
+  const char* format = is_nook(bytes) ? nullptr : bake::foreign_format(bytes);
+  if (format)
+    throw ToolError(exit_bad_input, options.input.string() + ": this is " + format +
+                                        ", not a .nook or glTF file; give a .nook, .glb or .gltf file");
   require_rig_options(options, is_gltf(bytes));
   if (options.shows_rig)
     tables = tables_of_rig(options);

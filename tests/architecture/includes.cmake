@@ -106,7 +106,7 @@ room(bakers/measure/report bakers/measure bakers/images platform ${makers})
 room(bakers/job bakers/job ${process} ${makers})
 room(bakers/api bakers/api bakers/job ${makers})
 # Keys and caches need hashes and the instruction set; models say which meshes they were baked from.
-room(bakers/tool bakers/tool bakers/import/content_hash.h bakers/import/gltf.h bakers/import/gltf_contents.h
+room(bakers/tool bakers/tool bakers/import/content_hash.h bakers/import/foreign_formats.h bakers/import/gltf.h bakers/import/gltf_contents.h
      bakers/import/import_options.h bakers/import/sha256.h bakers/raytrace/instruction_set.h bakers/raytrace/worker_arena.h
      bakers/character/recipe.h bakers/job bakers/measure bakers/images platform
      ${systems} sdk/src/core)

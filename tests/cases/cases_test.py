@@ -5,6 +5,7 @@ must give, and the AO by ray tracing.
 Writes the files into FOLDER. Exit code 3 is a refusal; code 0 with words is a repair or a note. A line without words
 must print no warning at all. The AO of a file that says which plain file shows the same body is equal to the AO of that
 file; COMPARE is the program compare_ao."""
+import base64
 import json
 import os
 import pathlib
@@ -45,10 +46,12 @@ def indices(component):
     return edited(change)
 
 
-def zero_weights(count):
+def zero_weights(count, value=0.0, of_four=4):
+    """The first vertices with this value in place of their weights."""
     def change(file, document):
         at = document["bufferViews"][2]["byteOffset"]
-        file.data[at:at + 16 * count] = bytes(16 * count)
+        for vertex in range(count):
+            struct.pack_into(f"<{of_four}f", file.data, at + 16 * vertex, *of_four * [value])
     return edited(change)
 
 
@@ -215,6 +218,32 @@ def transparent_hull(file, document):
     document["nodes"][0]["children"].append(4)
 
 
+def foreign(begin):
+    def write(folder, name):
+        (folder / f"{name}.glb").write_bytes(begin + bytes(200))
+        return f"{name}.glb"
+    return write
+
+
+def sparse_indices(*indices):
+    def change(file, document):
+        document["accessors"][0]["sparse"] = {
+            "count": len(indices), "values": {"bufferView": file.view(bytes(12 * len(indices)))},
+            "indices": {"bufferView": file.view(struct.pack(f"<{len(indices)}H", *indices)), "componentType": U16}}
+    return edited(change)
+
+
+def external(before=b"", after=b"", uri=None):
+    """A .gltf whose buffer is in a file with more bytes than it needs; or in a data URI that begins with `uri`."""
+    def write(folder, name):
+        file = column()
+        text = uri + base64.b64encode(file.data).decode() if uri else f"{name}.bin"
+        file.write(folder / f"{name}.gltf", text)
+        (folder / f"{name}.bin").write_bytes(before + file.data + after)
+        return f"{name}.gltf"
+    return write
+
+
 def room_without_bytes(folder, name):
     """A .gltf whose second buffer has no URI, which glTF allows; nothing reads it."""
     file = column()
@@ -289,6 +318,9 @@ CASES = [
     # Weights.
     ("weights_zero_one", zero_weights(1), [], 0, ["1 of 160 skinned vertices have no weights"], "plain"),
     ("weights_zero_two", zero_weights(2), [], 3, ["2 of 160 skinned vertices have no weights (need at most 1 %)"]),
+    ("weights_nan_one", zero_weights(1, float("nan")), [], 0, ["1 of 160 skinned vertices have no weights"], "plain"),
+    ("weights_nan_two", zero_weights(2, float("nan")), [], 3, ["2 of 160 skinned vertices have no weights (need at most 1 %)"]),
+    ("weights_infinite", zero_weights(1, float("inf"), 1), [], 3, ["vertex 0 has a weight that is not finite"]),
     # Faults that leave one way to read the file.
     *[(f"restart_{mode}_{component}", restart(mode, component), [], 0, ["restarts primitives"])
       for mode in (4, 5, 6) for component in (U8, U16)],
@@ -322,6 +354,19 @@ CASES = [
     ("attribute_string", edited(lambda f, d: d["meshes"][0]["primitives"][0]["attributes"].update(POSITION="0")), [], 3,
      ["meshes[0].primitives[0].attributes.POSITION is a string"]),
     ("target_list", edited(lambda f, d: d["animations"][0]["channels"][0].update(target=[])), [], 3, ["animations[0].channels[0].target is an array"]),
+    ("sparse_twice", sparse_indices(3, 3), [], 3, ["sparse indices do not increase (got 3 after 3)"]),
+    ("sparse_back", sparse_indices(9, 3), [], 3, ["sparse indices do not increase (got 3 after 9)"]),
+    # Files and their bytes.
+    ("buffer_longer", external(after=b"more"), [], 0, [], "plain"),
+    ("data_uri", external(uri="data:application/octet-stream;base64,"), [], 0, [], "plain"),
+    ("data_uri_gltf", external(uri="data:application/gltf-buffer;base64,"), [], 0, [], "plain"),
+    ("data_uri_bare", external(uri="data:;base64,"), [], 3, ['buffers[0].uri begins with "data:;base64,"']),
+    ("data_uri_capitals", external(uri="DATA:application/octet-stream;base64,"), [], 3, ['buffers[0].uri begins with "DATA:']),
+    ("fbx", foreign(b"Kaydara FBX Binary  "), [], 3, ["this is an FBX file"]),
+    ("blend", foreign(b"BLENDER-v402"), [], 3, ["this is a Blender file"]),
+    ("gzip", foreign(b"\x1f\x8b\x08"), [], 3, ["this is compressed by gzip"]),
+    ("utf_16", foreign(b"\xff\xfe{"), [], 3, ["this is text in UTF-16"]),
+    ("lfs", foreign(b"version https://git-lfs.github.com/spec/v1"), [], 3, ["this is a pointer of Git LFS"]),
     ("buffer_without_uri", room_without_bytes, [], 0, [], "plain"),
     # Which meshes are in.
     ("second_scene", edited(second_scene), [], 0, ["not in the default scene", "sword"], "plain"),

@@ -47,7 +47,7 @@ def darkened_world(run, glb, model, sky):
     run.report("evaluate_world_composite", *world, "--composite", "--views", 1, "--figures", 2, "--rays", 8,
                "--images", "world_composite")
     run.report("evaluate_world_light", *world, "--light", sky, "--points", 40, "--max-poses", 2, "--rays", 16,
-               "--views", 1, "--figures", 2, "--images", "world_light")
+               "--figures", 2, "--images", "world_light")
     for form in ("unreal", "source2", "gltf"):
         run.report(f"export_{form}", "export", "casters", model, "--format", form, "-o", f"casters_{form}.txt")
     run.report("export_light", "export", "casters", model, "--format", "source2", "--radii", "light", "-o",
