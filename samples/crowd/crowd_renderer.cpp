@@ -71,6 +71,7 @@ out vec3 surface_normal_ws;
 out vec3 surface_albedo;
 out float surface_ao;
 out vec3 surface_light;
+out vec3 surface_rest_m;
 vec4 bone_row(int bone, int row) { return texelFetch(bones, first_bone_texel + 3 * bone + row); }
 void main() {
   vec4 rows[3] = vec4[3](vec4(0.0), vec4(0.0), vec4(0.0));
@@ -82,6 +83,7 @@ void main() {
   surface_albedo = instance_albedo;
   surface_ao = ao;
   surface_light = light_value;
+  surface_rest_m = position_m;
   gl_Position = clip_from_world * vec4(surface_position_ws, 1.0);
 }
 )";

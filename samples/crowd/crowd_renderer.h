@@ -91,8 +91,9 @@ inline constexpr glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
 
 // The sample's shaders, for OpenGL 3.3 core. Fragment shaders write linear light to an sRGB target. Both
 // vertex shaders also write surface_ao, plain AO. Only the fragment shaders of nook-lab-crowd read it; the
-// fragment shaders of the sample use directional AO from surface_light. Characters: linear blend skinning
-// with the bones in a texture buffer, three texels for each bone.
+// fragment shaders of the sample use directional AO from surface_light. Only nook-lab-motion reads
+// surface_rest_m, the place of a character's vertex in the rest pose. Characters: linear blend skinning with
+// the bones in a texture buffer, three texels for each bone.
 extern const char* const character_vertex;
 // One big quad on y = 0, made from gl_VertexID.
 extern const char* const ground_vertex;

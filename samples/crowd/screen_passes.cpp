@@ -44,9 +44,13 @@ nook_world_desc world_settings(int width, int height, const ScreenQuality& quali
 }
 
 ScreenPasses::ScreenPasses(const platform::Context& context, const nook::Gl& gl, int width, int height)
+    : ScreenPasses(context, gl, width, height, quality_for(context.renderer())) {}
+
+ScreenPasses::ScreenPasses(const platform::Context& context, const nook::Gl& gl, int width, int height,
+                           const ScreenQuality& chosen)
     : width_px(width),
       height_px(height),
-      quality(quality_for(context.renderer())),
+      quality(chosen),
       screen(gl, screen_settings(width, height, quality)),
       world(gl, world_settings(width, height, quality)),
       gl_(context.gl()) {

@@ -24,6 +24,8 @@ class ScreenPasses {
 
   // gl must belong to the same OpenGL context.
   ScreenPasses(const platform::Context& context, const nook::Gl& gl, int width, int height);
+  ScreenPasses(const platform::Context& context, const nook::Gl& gl, int width, int height,
+               const ScreenQuality& quality);
   ~ScreenPasses();
   ScreenPasses(const ScreenPasses&) = delete;
   ScreenPasses& operator=(const ScreenPasses&) = delete;

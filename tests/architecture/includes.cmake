@@ -134,7 +134,7 @@ endforeach()
 forbid(bakers/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/(command_line|main|command_program)[.]cpp$")
 forbid(bakers/lab/tool "CLI/" "CLI11 costs every file seconds: take bakers/tool/command_line.h" "/main[.]cpp$")
 forbid(bakers/lab/crowd "nook_gl|glad" "the program draws what is measured"
-       "/(debug_overlay|debug_shapes|timed_frames|main|light_file|crowd_options|panels|plain_look)[.](h|cpp)$")
+       "/(debug_overlay|debug_shapes|timed_frames|main|light_file|crowd_options|panels|plain_look|dressed_bodies|given_values|motion_main|motion_scenes)[.](h|cpp)$")
 foreach(sample offscreen minimal)
   room(samples/${sample} samples/${sample})
 endforeach()

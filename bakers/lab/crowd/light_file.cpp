@@ -109,4 +109,10 @@ MapLight read_light(const nook::Context& context, const std::filesystem::path& p
           mean_radiance};
 }
 
+MapLight light_of_lobes(std::string name, Light light) {
+  Map map = map_of(light.lobes);
+  const float mean_radiance = mean_of(map);
+  return {std::move(name), std::move(light), std::move(map.rgb), map.width, map.height, mean_radiance};
+}
+
 }  // namespace crowd::lab

@@ -28,4 +28,7 @@ struct MapLight {
 // so that none of them is a sun.
 MapLight read_light(const nook::Context& context, const std::filesystem::path& path);
 
+// Returns a light whose environment is its own lobes.
+MapLight light_of_lobes(std::string name, Light light);
+
 }  // namespace crowd::lab
