@@ -64,24 +64,35 @@ def save(name, frames, frame_ms):
           f"{path.stat().st_size / 1e6:.2f} MB", flush=True)
 
 
-def motion(build, name, scene, size, count, frame_ms):
-    """A few moving bodies three times: without occlusion, with Nook, ray traced."""
-    folder = build / "animations" / name
-    run(build, folder, f"traced_{count - 1:04}.png", "bakers/lab/crowd/nook-lab-motion", MODEL, "--scene", scene, "--frames",
-        count, "--size", size, "--rays", 256)
+def stacked(pictures, gap_px=4):
+    width = pictures[0].width
+    column = Image.new("RGB", (width, sum(p.height + gap_px for p in pictures) - gap_px), "white")
+    y = 0
+    for picture in pictures:
+        column.paste(picture, (0, y))
+        y += picture.height + gap_px
+    return column
+
+
+def motion(build, name, scene, shots, count, loop_ms):
+    """A few moving bodies three times: without occlusion, with Nook, ray traced. The shots are put below each other."""
+    folder = build / "animations" / scene
+    run(build, folder, f"traced_body_{count - 1:04}.png", "bakers/lab/crowd/nook-lab-motion", MODEL, "--scene", scene,
+        "--frames", count, "--width", 432, "--rays", 24)
     frames = []
     for i in range(count):
-        panels = [Image.open(folder / f"{kind}_{i:04}.png").convert("RGB") for kind, _ in KINDS]
-        for panel, (_, words) in zip(panels, KINDS):
-            label(panel, 12, 12, words)
-        frames.append(side_by_side(panels))
-    save(name, frames, frame_ms)
+        columns = [stacked([Image.open(folder / f"{kind}_{shot}_{i:04}.png").convert("RGB") for shot in shots]) for kind, _ in KINDS]
+        for column, (_, words) in zip(columns, KINDS):
+            label(column, 12, 12, words)
+        frames.append(side_by_side(columns))
+    save(name, frames, round(loop_ms / count))
 
 
 ANIMATIONS = {
-    "motion_together": lambda build: motion(build, "motion_together", "together", "480x560", 48, 83),
-    "motion_walk": lambda build: motion(build, "motion_walk", "walk", "400x560", 24, 46),
-    "motion_feet": lambda build: motion(build, "motion_feet", "feet", "480x360", 24, 46),
+    # One cycle of the clip takes 1.1 s.
+    "motion_walk": lambda build: motion(build, "motion_walk", "walk", ("body", "detail"), 14, 1100),
+    "motion_feet": lambda build: motion(build, "motion_feet", "walk", ("detail",), 14, 1100),
+    "motion_together": lambda build: motion(build, "motion_together", "together", ("body",), 28, 4000),
 }
 
 

@@ -11,6 +11,7 @@
 #include "bakers/lab/crowd/given_values.h"
 #include "bakers/lab/crowd/light_file.h"
 #include "bakers/lab/crowd/motion_scenes.h"
+#include "bakers/lab/crowd/shadow_ratio.h"
 #include "platform/file_bytes.h"
 #include "platform/progress_bar.h"
 #include "platform/render_target.h"
@@ -22,7 +23,7 @@ namespace crowd::lab {
 namespace {
 
 struct Options {
-  std::filesystem::path model, out = "out/motion";
+  std::filesystem::path model, character, out = "out/motion";
   std::string scene = "walk", context = "egl";
   int width_px = 480, tier = 0;
   std::uint32_t frames = 24, rays = 64;
@@ -34,6 +35,9 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("model", o.model, "model of the built-in character, a .nook file")
       ->check(CLI::ExistingFile)
       ->required();
+  app.add_option("--character", o.character,
+                 "the built-in character as mannequin writes it; default: make it")
+      ->check(CLI::ExistingFile);
   app.add_option("--scene", o.scene, "what moves")->check(CLI::IsMember(motion_scene_names()));
   app.add_option("--frames", o.frames, "number of pictures in one loop")->check(CLI::Range(1, 1000));
   app.add_option("--rays", o.rays,
@@ -65,8 +69,8 @@ std::vector<DrawnInstance> dressed(std::vector<DrawnInstance> drawn, const Motio
 struct ShotTarget {
   ShotTarget(platform::Context& context, const nook::Gl& gl, const Shot& from, int width_px)
       : shot(from),
-        // The quality of a GPU, also without one.
-        passes(context, gl, width_px, height_px(from, width_px), ScreenQuality{}),
+        // Full resolution, also without a GPU. The floor is a plane, to which taps add nothing.
+        passes(context, gl, width_px, height_px(from, width_px), {9, false}),
         target(context, width_px, height_px(from, width_px)) {}
 
   static int height_px(const Shot& shot, int width_px) {
@@ -130,7 +134,7 @@ class MotionFrames {
     std::iota(all.begin(), all.end(), 0u);
     // All frames have the same rays, so that noise does not flicker.
     const measure::TracedIrradiance traced =
-        measure::traced_irradiance(posed, all, &scene_.floor, light_.environment(), {options_.rays, 1, true});
+        smooth_irradiance(posed, all, scene_.floor, light_.environment(), {options_.rays, 1, true});
     const VertexBuffer irradiance(gl_, traced.bodies, 3);
     for (std::size_t i = 0; i < drawn.size(); ++i) drawn[i].light = irradiance.source(i);
     const FloorImage floor(gl_, {scene_.floor, traced.floor}, 3);
@@ -159,7 +163,7 @@ class MotionFrames {
 };
 
 void run(const Options& o) {
-  const Hero hero(built_in_glb(CROWD_CACHE));
+  const Hero hero(o.character.empty() ? built_in_glb(CROWD_CACHE) : o.character);
   platform::ContextRequest request;
   request.kind = o.context;
   request.width = o.width_px;

@@ -19,7 +19,7 @@ MotionScene walk() {
   scene.shots = {{"body", {{-1.35f, 1.15f, 3.3f}, {0, 0.93f, 0}, 0.56f}, 1.0f},
                  {"detail", {{-0.95f, 0.62f, 1.55f}, {-0.08f, 0.20f, -0.05f}, 0.42f}, 0.62f}};
   scene.floor_travel_m = {0, walk_m};
-  scene.floor = {-2.2f, -2.3f, 3.0f, 290};
+  scene.floor = {-2.0f, -2.1f, 2.7f, 200};
   return scene;
 }
 
