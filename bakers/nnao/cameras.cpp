@@ -13,7 +13,8 @@ Vec3 inside(const Box& box, Random& random) {
   return {x, y, random.between(box.low.z, box.high.z)};
 }
 
-// Returns the share of the screen with a surface between 0.35 m and 9 m.
+// Rates a camera: the share of the screen that shows surfaces at 0.35 m to 9 m, minus 4 times the share that
+// shows nearer surfaces.
 float worth(const RayScene& rays, Camera camera) {
   constexpr int columns = 24, rows = 14;
   int good = 0, near = 0;
@@ -56,7 +57,7 @@ Camera place_camera(const RayScene& rays, const TrainingScene& scene, Random& ra
                     std::uint32_t height) {
   Camera best;
   float best_worth = -10;
-  // Most places pass. If none does, the best of the attempts is taken.
+  // Most attempts are good enough. If none is, the best one is used.
   for (int attempt = 0; attempt < 24 && best_worth < 0.85f; ++attempt) {
     const Vec3 eye = inside(scene.cameras, random), target = inside(scene.subject, random);
     const float roll = random.between(-0.15f, 0.15f), fov = random.between(0.6f, 1.4f);
@@ -140,7 +141,7 @@ struct Line {
   float widest = 100 * degree;
 };
 
-// Returns the eye and the target of one attempt.
+// Returns the eye and the target of one attempt, or nothing if the attempt fails.
 std::optional<Line> any_line(Kind kind, const RayScene& rays, const TrainingScene& scene, Random& random) {
   const float size = scene.size;
   const Vec3 eye = point_in(scene.cameras, random), target = point_in(scene.subject, random);
@@ -187,7 +188,8 @@ std::optional<Line> any_line(Kind kind, const RayScene& rays, const TrainingScen
   }
 }
 
-// Returns 1 if surfaces fill the screen and have the given share of edges and bends. Other views have less.
+// Rates a camera: 1 if surfaces fill at least 75 % of the screen and have the given share of edges and bends,
+// otherwise less.
 float worth(const RayScene& rays, const Camera& camera, float nearest, float relief_share) {
   constexpr int columns = 24, rows = 14;
   std::array<RayHit, columns * rows> hits;
@@ -225,7 +227,7 @@ Camera place_training_camera(const RayScene& rays, const TrainingScene& scene, R
   const float relief_share = random.between(0.06f, 0.3f);
   Camera best;
   float best_worth = -10;
-  // A kind without a place in the scene is replaced by the first kind.
+  // If 25 attempts find no good place for this kind, the remaining ones use the first kind.
   for (int attempt = 0; attempt < 40 && best_worth < 0.999f; ++attempt) {
     const Kind tried = attempt < 25 || best_worth > 0.75f ? kind : Kind::inside;
     const auto line = any_line(tried, rays, scene, random);

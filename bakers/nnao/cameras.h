@@ -17,7 +17,8 @@ struct Camera {
   std::uint32_t width = 0, height = 0;
 };
 
-// The view-space ray through a point of the screen; its depth is 1 for a length of 1.
+// The ray through a point of the screen, in world space. `direction_ws` is not normalised: its end is at a
+// view depth of 1.
 struct PixelRay {
   Vec3 origin_ws, direction_ws;
 };
@@ -26,8 +27,8 @@ PixelRay pixel_ray(const Camera& camera, float px, float py);
 Camera look_at(Vec3 eye, Vec3 target, float roll, float vertical_fov, std::uint32_t width,
                std::uint32_t height);
 
-// Returns a camera in the scene's camera box with a view of surfaces, neither inside a solid nor towards the
-// sky.
+// Returns a camera in the scene's camera box that looks at surfaces. It avoids cameras inside a solid and
+// cameras that look at the sky.
 Camera place_camera(const RayScene& rays, const TrainingScene& scene, Random& random, std::uint32_t width,
                     std::uint32_t height);
 
@@ -41,22 +42,23 @@ struct TracedView {
 };
 TracedView trace_view(const RayScene& rays, const Camera& camera);
 
-// Transforms to view space, without the translation.
+// Transforms a world-space direction to view space.
 Vec3 view_direction(const Camera& camera, Vec3 direction_ws);
 
 // Places the cameras of the training set where players and viewers stand.
 
-// Returns a camera of one of six kinds. Lengths are multiples of the scene's size:
+// Returns a camera of one of six kinds, each with the probability below. All lengths are multiplied by the
+// scene's size:
 //   0.30  in the scene's camera box
-//   0.20  a walker, 0.9 to 1.9 m above the ground, whose view falls by 40 degrees or rises by 8 at most
-//   0.17  grazing, 0.04 to 0.5 m above a floor, a wall or a thing, along it
-//   0.15  a close-up from 0.12 to 0.8 m
-//   0.10  from afar, 2.5 to 10 times the distance of the first kind, through a long lens
-//   0.08  from above, by 35 to 75 degrees, 2 to 12 m away
-// The vertical field of view has a uniform logarithm from 25 to 100 degrees, if the horizontal one is below
-// 125. 55 % of the screens have the given sides. The others have as many pixels, with sides like 4:3, 21:9,
-// 3:4 and 9:16. Most of the screen shows surfaces. If there is such a place, 6 to 30 % of them lie at edges
-// or bends.
+//   0.20  a walker, 0.9 to 1.9 m above the ground, looking at most 40 degrees down or 8 degrees up
+//   0.17  grazing, 0.04 to 0.5 m away from a floor, a wall or an object, looking along its surface
+//   0.15  a close-up, 0.12 to 0.8 m from a surface
+//   0.10  from far away, 2.5 to 10 times the first kind's distance, field of view at most 50 degrees
+//   0.08  from above, looking 35 to 75 degrees down, 2 to 12 m away
+// The vertical field of view is log-uniform from 25 to 100 degrees, as long as the horizontal one stays below
+// 125 degrees. 55 % of the screens have the given width and height. The others have about the same number of
+// pixels, and aspect ratios such as 4:3, 21:9, 3:4 and 9:16. Most of the screen shows surfaces. If the scene
+// has such a view, 6 to 30 % of the visible surfaces lie at edges or bends.
 Camera place_training_camera(const RayScene& rays, const TrainingScene& scene, Random& random,
                              std::uint32_t width, std::uint32_t height);
 

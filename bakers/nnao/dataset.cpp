@@ -15,7 +15,8 @@
 namespace nook::bake::nnao {
 namespace {
 
-// Returns a random radius for a point where a metre covers this many pixels.
+// Returns a random radius in metres. `px_per_metre` is the number of pixels that one metre covers at the
+// point.
 float any_radius(Random& random, float px_per_metre) {
   constexpr float low_px = Dataset::min_radius_px, high_px = Dataset::max_radius_px;
   const bool in_metres = random.chance(0.5f);
@@ -25,8 +26,8 @@ float any_radius(Random& random, float px_per_metre) {
   return std::clamp(metres * px_per_metre, low_px, limit_px) / px_per_metre;
 }
 
-// Returns whether the screen shows one plane around a point. Its AO is then known well enough. The choice
-// depends only on what a network sees, so that the mean AO of equal inputs stays the same.
+// Returns true if the screen shows a single plane around a point. Such points are easy to predict. The test
+// reads only what the network sees, so that skipping points does not change the mean AO of equal inputs.
 bool is_flat(const TracedView& view, const DataPoint& point, float radius_px) {
   const Camera& camera = view.camera;
   const auto position = [&](std::uint32_t x, std::uint32_t y) {
@@ -45,7 +46,8 @@ bool is_flat(const TracedView& view, const DataPoint& point, float radius_px) {
   return true;
 }
 
-// Draws a pixel and its radius; nothing if the pixel shows the sky, or if it is flat and chance rejects it.
+// Draws a pixel and its radius. Returns nothing if the pixel shows the sky, or if it is flat and is rejected
+// at random.
 std::optional<DataPoint> any_point(const TracedView& view, Random& random) {
   const Camera& camera = view.camera;
   DataPoint point;
@@ -61,7 +63,8 @@ std::optional<DataPoint> any_point(const TracedView& view, Random& random) {
   return point;
 }
 
-// Every sixth round of the families is for validation, or the last one if there are fewer rounds.
+// Every sixth round through the families is used for validation. With fewer than six rounds, it is the last
+// one.
 bool is_validation(std::uint32_t scene, std::uint32_t scenes) {
   const std::uint32_t rounds = scenes / family_count;
   return scene / family_count % 6 == std::min(rounds - 1, 5u);
@@ -99,7 +102,7 @@ std::vector<DataPoint> trace_points(const RayScene& rays, const TracedView& view
   std::vector<Vec3> position_ws, normal_ws;
   std::vector<float> radius, offset;
   const Camera& camera = view.camera;
-  // A view that shows little but sky has fewer points.
+  // A view that shows mostly sky gets fewer points.
   for (std::uint32_t tries = 3 * points; chosen.size() < points && tries > 0; --tries) {
     std::optional<DataPoint> found = any_point(view, random);
     if (!found) continue;
@@ -126,7 +129,7 @@ std::vector<DataPoint> trace_points(const RayScene& rays, const TracedView& view
 
 namespace {
 
-// Replaces the normals of a view and its points by a host's normals.
+// Replaces the normals of a view and of its points by host-like normals.
 void set_host_normals(const HostNormals& normals, const RayScene& rays, bool all_pixels, TracedView& view,
                       std::vector<DataPoint>& points) {
   const FlushDenormals flush;
@@ -166,7 +169,7 @@ Dataset make_dataset(const DatasetSettings& settings, const DatasetProgress& pro
       if (Random(mix_bits(~seed)).chance(settings.host_normal_share))
         set_host_normals(HostNormals(scene.soup, scene.size, seed), rays, settings.normals, data.views[v],
                          points[v]);
-      // Assigning {} would keep the memory.
+      // Assigning {} would not free the memory.
       if (!settings.normals) data.views[v].normal = std::vector<Vec3>();
     }
     if (!progress) return;

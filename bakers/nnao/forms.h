@@ -1,4 +1,4 @@
-// The parts of training that depend on the network's form: its numbers as one array, their initial values,
+// The parts of training that depend on the network's form: the parameters as one array, their initial values,
 // their gradient over a minibatch, and the conversion to a network.
 #pragma once
 
@@ -9,25 +9,26 @@
 
 namespace nook::bake::nnao {
 
-// The numbers are in the order of nnao/layers.h.
+// The parameters are in the order of nnao/layers.h.
 std::size_t horizon_parameter_count();
 void start_horizon(std::span<float> parameters, Random& random);
-// Moves thresholds below 0 to 0, after a step.
+// Sets negative thresholds to 0. Call it after each step.
 void constrain_horizon(std::span<float> parameters);
 void export_horizon(std::span<const float> parameters, nook::nnao::HorizonNetwork& network);
 
-// Computes the gradient of the mean loss over one minibatch, a multiple of 16 points. Random draws depend on
-// step_seed. Returns the loss.
+// Computes the gradient of the mean loss over one minibatch. The number of points must be a multiple of 16.
+// Random draws depend only on step_seed. Returns the loss.
 double horizon_step_gradient(const Dataset& data, const TrainingSettings& settings,
                              std::span<const float> parameters, std::span<const std::uint32_t> points,
                              std::uint64_t step_seed, std::span<float> gradient);
 
-// The numbers are the filters, one unit after another (unit, cell, input), then the rest in the order of
-// nnao/layers.h.
+// The parameters begin with the filters, one unit after another (unit, cell, input). The rest is in the order
+// of nnao/layers.h.
 std::size_t paper_parameter_count();
 void start_paper(std::span<float> parameters, float mean_ao, Random& random);
 
-// Mean and inverse deviation of each input of the grid; a constant input has inverse deviation 0.
+// Mean and inverse standard deviation of each input of the grid. The inverse deviation of a constant input is
+// 0.
 struct PaperNormalisation {
   std::vector<float> mean, inverse_deviation;
 };

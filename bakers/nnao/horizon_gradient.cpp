@@ -15,7 +15,7 @@ constexpr int units = HorizonNetwork::units, tap_inputs = HorizonNetwork::tap_in
 constexpr int direction_gates = HorizonBatch::direction_gates, join_gates = HorizonBatch::join_gates,
               pooled_inputs = 2 * units;
 
-// The offset of each layer among the parameters.
+// The offset of each layer in the parameter array.
 constexpr int tap_layer = 0;
 constexpr int tap_count = (tap_inputs + 1) * units;
 constexpr int direction_layer = tap_layer + tap_count;

@@ -1,4 +1,5 @@
-// The horizon form on sixteen samples at once, with its gradient. nnao/network.h defines the form.
+// Evaluates the horizon form on sixteen samples at once, and computes its gradient. nnao/network.h defines
+// the form.
 #pragma once
 
 #include <span>
@@ -18,7 +19,7 @@ using nook::nnao::TapNoise;
 struct HorizonBatch {
   // dot(n, t), dot(n, o).
   static constexpr int direction_gates = 2;
-  // dot(n, o), distance from the border.
+  // dot(n, o), distance from the screen's border.
   static constexpr int join_gates = 2;
 
   explicit HorizonBatch(TapGrid tap_grid);
@@ -39,8 +40,8 @@ struct HorizonTrace {
   explicit HorizonTrace(TapGrid grid);
 
   LaneArray pooled, direction_sums, bent_sums;
-  std::vector<int> most_step;  // step of each direction's maximum, by unit and lane
-  Lanes darkness;              // before the bound
+  std::vector<int> most_step;  // the step with each direction's maximum, by unit and lane
+  Lanes darkness;              // before the upper bound is applied
   Lanes joined[HorizonNetwork::units], join_sums[HorizonNetwork::units], join_output[HorizonNetwork::units];
 };
 
@@ -50,11 +51,11 @@ struct HorizonOutput {
   Lanes bent[3]{};  // x, y, z, not normalised
 };
 
-// parameters are in the order of layers.h.
+// `parameters` are in the order of layers.h.
 void horizon_forward(const float* parameters, const HorizonBatch& batch, HorizonTrace& trace,
                      HorizonOutput& output);
 
-// Adds the gradient of the output, times output_gradient, for each parameter and lane.
+// Back-propagates output_gradient, and adds the result to `gradient` for each parameter and lane.
 void horizon_backward(const float* parameters, const HorizonBatch& batch, const HorizonTrace& trace,
                       const HorizonOutput& output_gradient, Lanes* gradient);
 

@@ -11,27 +11,27 @@
 namespace nook::bake::nnao {
 namespace {
 
-// AO is clamped when written. The gradient passes through the clamp, so that samples outside the range still
-// contribute.
+// The pass clamps AO when it writes it, so the error does too. The gradient ignores the clamp, so that
+// outputs outside the range still move back.
 float error_of(float output, float ao) {
   return std::clamp(output, 0.0f, 1.0f) - ao;
 }
 
-// Depth buffers of 24 bits and normals of 8 bits are off by some tenths of a degree. Returns a normal turned
-// by as much, so that the network does not respond to it.
+// Returns the normal with a small random rotation. Hosts' 24-bit depth and 8-bit normals cause errors of some
+// tenths of a degree, and the network should not respond to such errors.
 Vec3 rounded_normal(Vec3 normal, Random& random) {
   constexpr float reach = 0.01f;  // radians
   return normalised(normal + Vec3{random.between(-reach, reach), random.between(-reach, reach),
                                   random.between(-reach, reach)});
 }
 
-// The loss of two outputs. It comes with the gradient for each of them.
+// The loss of two outputs, and its gradient with respect to each of them.
 struct PairLoss {
   float loss = 0, g_one = 0, g_two = 0;
 };
 
-// Returns the loss of a pair of outputs with independent noise. Dark references count for more: see
-// TrainingSettings.
+// Returns the loss of a pair of outputs with independent noise. Points with a dark reference have a larger
+// weight, see TrainingSettings.
 PairLoss ao_loss(const TrainingSettings& settings, float ao, float output_one, float output_two) {
   const float w = settings.unblurred_weight, weight = 1 + settings.dark_weight * (1 - ao) * (1 - ao);
   const float e_one = error_of(output_one, ao), e_two = error_of(output_two, ao);
@@ -43,13 +43,14 @@ Vec3 lane_vector(const Lanes (&from)[3], int lane) {
   return {from[0][lane], from[1][lane], from[2][lane]};
 }
 
-// Turns the gradient for a unit vector into the gradient for the vector before normalisation.
+// Converts the gradient with respect to a unit vector into the gradient with respect to the vector before
+// normalisation.
 Vec3 before_normalising(Vec3 gradient, Vec3 unit, float size) {
   return (gradient - dot(gradient, unit) * unit) * (1 / size);
 }
 
-// The same for the bent normal. The error is the squared distance of unit vectors, weighted by 1 - AO. The
-// weight is small for a nearly open point, because its direction hardly departs from the normal.
+// Computes the loss of the bent normal. The error is the squared distance of unit vectors, weighted by 1 -
+// AO. The weight is small for nearly open points, because their bent normal hardly differs from the normal.
 float bent_loss(const TrainingSettings& settings, const DataPoint& point, const HorizonOutput& one,
                 const HorizonOutput& two, int lane, HorizonOutput& g_one, HorizonOutput& g_two) {
   const Vec3 bent_one = lane_vector(one.bent, lane), bent_two = lane_vector(two.bent, lane);
@@ -69,8 +70,8 @@ float bent_loss(const TrainingSettings& settings, const DataPoint& point, const 
   return weight * ((1 - w) * dot(e_one, e_two) + 0.5f * w * (dot(e_one, e_one) + dot(e_two, e_two)));
 }
 
-// Evaluates sixteen points with two noise values each. Returns the loss summed over lanes and sets the
-// gradient.
+// Evaluates sixteen points with two noise values each. Sets the gradient, and returns the sum of the losses
+// of all lanes.
 double block_gradient(const Dataset& data, const TrainingSettings& settings, const float* parameters,
                       std::span<const std::uint32_t> points, TapGrid grid, std::uint64_t seed,
                       float* gradient) {
@@ -109,16 +110,16 @@ double block_gradient(const Dataset& data, const TrainingSettings& settings, con
   return loss;
 }
 
-// Each function returns the place of the next layer.
+// Each function initialises one layer, and returns a pointer to the next one.
 template <int inputs, int units>
 float* start_weights(float* layer, Random& random) {
-  // Glorot's bounds.
+  // Glorot's initialisation bounds.
   const float reach = std::sqrt(6.0f / float(inputs + units));
   for (int i = 0; i < inputs * units; ++i) layer[i] = random.between(-reach, reach);
   return layer + inputs * units;
 }
 
-// Gates start at 1 for every input.
+// Gates start with a factor of 1 for every input.
 template <int inputs, int gates, int units>
 float* start_gated(float* layer, Random& random) {
   float* const gate = start_weights<inputs, units>(layer, random);
@@ -136,7 +137,8 @@ std::size_t horizon_parameter_count() {
 void start_horizon(std::span<float> parameters, Random& random) {
   constexpr int units = HorizonNetwork::units;
   float* next = start_weights<HorizonNetwork::tap_inputs, units>(parameters.data(), random);
-  // Taps above the plane occlude, so units begin by responding to them at any distance.
+  // Taps above the tangent plane occlude. So we initialise all units to respond to such taps, at any
+  // distance.
   for (int u = 0; u < units; ++u)
     for (const int input : {0, 2})
       parameters[std::size_t(input * units + u)] = std::abs(parameters[std::size_t(input * units + u)]);
@@ -144,7 +146,7 @@ void start_horizon(std::span<float> parameters, Random& random) {
   next = start_gated<2 * units, HorizonBatch::direction_gates, units>(next + units, random);
   next = start_gated<units, HorizonBatch::join_gates, units>(next, random);
   next = start_weights<units, 1>(next, random);
-  // The bent normal starts at the normal.
+  // Initially, the bent normal equals the normal.
   std::fill(next, parameters.data() + parameters.size(), 0.0f);
 }
 
@@ -172,8 +174,9 @@ double horizon_step_gradient(const Dataset& data, const TrainingSettings& settin
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the minibatch has no whole blocks (got %zu points, need a multiple of %d)", points.size(),
                   lane_count);
-  // The grids of 9, 16 and 64 taps, and the 16 steps of 256 taps. The number of directions only changes the
-  // noise. The smallest grid is drawn twice as often, because it has the largest error.
+  // The grids for 9, 16 and 64 taps, and a grid with the 16 steps of 256 taps, but only 4 directions. The
+  // number of directions affects only the noise. The smallest grid is drawn twice as often as the others,
+  // because it has the largest error.
   constexpr TapGrid grids[] = {{3, 3}, {3, 3}, {4, 4}, {8, 8}, {4, 16}};
   const TapGrid grid = grids[Random(step_seed).below(std::size(grids))];
   const std::size_t blocks = points.size() / lane_count, count = horizon_parameter_count();

@@ -26,10 +26,11 @@ Places weld(std::span<const Vec3> positions) {
 
 namespace {
 
-// Triangles that meet at a sharper angle do not share a normal, as in exporters.
+// Triangles whose normals differ by a larger angle do not share vertex normals, as in exporters.
 constexpr float cos_crease = 0.5f;  // 60 degrees
 
-// Returns the normal, turned towards the face's normal if the angle between them is too large.
+// Returns the normal. If its angle to the face's normal exceeds max_normal_tilt, it is turned towards the
+// face's normal.
 Vec3 within_tilt(Vec3 normal, Vec3 face) {
   const float cosine = dot(normal, face);
   if (cosine >= std::cos(max_normal_tilt)) return normal;
@@ -68,7 +69,7 @@ HostNormals::HostNormals(const TriangleSoup& soup, float size, std::uint64_t see
 Vec3 HostNormals::corner_normal(std::uint32_t place, Vec3 face) const {
   Vec3 sum;
   for (std::uint32_t i = first_[place]; i < first_[place + 1]; ++i) {
-    // Triangles of a soup have either winding.
+    // The winding of the triangles in a soup is arbitrary.
     const Vec3 area = area_[around_[i]];
     const float along = dot(area, face);
     if (std::abs(along) > cos_crease * length(area)) sum += along > 0 ? area : -area;
@@ -93,7 +94,7 @@ Vec3 HostNormals::at(const RayHit& hit, Vec3 origin, Vec3 direction) const {
     normal = normalised(normal + map_depth_ * (slope - dot(slope, normal) * normal));
   }
   normal = within_tilt(normal, hit.normal);
-  // A host clamps or flips normals that turn away from the viewer.
+  // Hosts clamp or flip normals that face away from the viewer.
   const float facing = -dot(normal, normalised(direction));
   constexpr float smallest = 0.02f;
   if (facing >= smallest) return normal;

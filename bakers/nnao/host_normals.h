@@ -1,5 +1,5 @@
-// Normals as hosts draw them to their G-buffers. They differ from the normals of triangles: they are
-// interpolated over a coarse mesh, or come from normal maps.
+// Normals like the ones that hosts draw into their G-buffers. They differ from triangle normals, because they
+// are interpolated over a coarse mesh or come from normal maps.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace nook::bake::nnao {
 
-// Finds vertices at one place.
+// Finds vertices with the same position.
 
-// Returns for each position the index of its place, from 0 up. Equal positions have equal indices.
+// Returns an index for each position, counted from 0. Equal positions get equal indices.
 struct Places {
   std::vector<std::uint32_t> of;
   std::uint32_t count = 0;
@@ -25,11 +25,12 @@ inline constexpr float max_normal_tilt = 0.436332f;
 
 class HostNormals {
  public:
-  // The soup must outlive this. size is the size of the scene's things. seed draws the map's pattern and
-  // depth, and whether there are a map, smooth normals or both.
+  // The soup must outlive this object. `size` is the size of the scene's objects (TrainingScene::size).
+  // `seed` selects the pattern and depth of the normal map. It also decides whether there is a normal map,
+  // smooth normals or both.
   HostNormals(const TriangleSoup& soup, float size, std::uint64_t seed);
 
-  // Returns the normal at a hit of a ray, in world space and with unit length. It faces the viewer.
+  // Returns the unit normal where a ray hits, in world space. It faces the viewer.
   Vec3 at(const RayHit& hit, Vec3 origin, Vec3 direction) const;
 
  private:
@@ -39,10 +40,10 @@ class HostNormals {
   const TriangleSoup& soup_;
   std::uint64_t seed_;
   bool smooth_ = false;
-  float map_depth_ = 0, map_scale_ = 1;        // tangent of the largest tilt; waves per metre
+  float map_depth_ = 0, map_scale_ = 1;        // tangent of the maximum tilt; waves per metre
   std::vector<std::uint32_t> place_;           // per vertex
-  std::vector<std::uint32_t> first_, around_;  // the triangles around each place
-  std::vector<Vec3> area_;                     // per triangle, along its normal
+  std::vector<std::uint32_t> first_, around_;  // triangles around each place
+  std::vector<Vec3> area_;                     // per triangle: normal times area
 };
 
 }  // namespace nook::bake::nnao

@@ -1,4 +1,5 @@
-// The layers of network.h forwards and backwards, on one sample (float) or sixteen at once (Lanes).
+// Forward and backward passes of the layers of network.h, on one sample (float) or on sixteen at once
+// (Lanes).
 #pragma once
 
 #include "sdk/src/core/aligned_array.h"
@@ -14,15 +15,15 @@ inline LaneArray lane_array(std::size_t count) {
   return {count, default_memory()};
 }
 
-// The layers of network.h are Dense, ThresholdDense and GatedDense; their numbers are in the
-// order of layers.h.
+// The layers of network.h are Dense, ThresholdDense and GatedDense. Their parameters are in the order of
+// layers.h.
 template <int inputs, int units>
 struct LayerOrder {
   static constexpr int weights = 0, bias = inputs * units, negative = bias + units,
                        positive = negative + units, count = positive + units;
 };
 
-// before receives the values before the PReLU.
+// `before` receives the values before the PReLU.
 template <int inputs, int units, class Number>
 NOOK_INLINE void forward(const float* layer, const Number* input, Number* before, Number* output) {
   using Order = LayerOrder<inputs, units>;
@@ -34,8 +35,8 @@ NOOK_INLINE void forward(const float* layer, const Number* input, Number* before
   }
 }
 
-// Adds the gradient of the layer's numbers to `gradient`, and sets the gradient of the inputs if it is not
-// null.
+// Adds the gradient of the layer's parameters to `gradient`. If input_gradient is not null, it receives the
+// gradient of the inputs.
 template <int inputs, int units, class Number>
 NOOK_INLINE void backward(const float* layer, const Number* input, const Number* before,
                           const Number* output_gradient, Number* gradient, Number* input_gradient) {
@@ -72,7 +73,7 @@ NOOK_INLINE void threshold_forward(const float* layer, const Number* input, Numb
   }
 }
 
-// Adds the gradient of the layer's numbers to `gradient`.
+// Adds the gradient of the layer's parameters to `gradient`.
 template <int inputs, int units, class Number>
 NOOK_INLINE void threshold_backward(const Number* input, const Number* output, const Number* output_gradient,
                                     Number* gradient) {
@@ -91,7 +92,7 @@ NOOK_INLINE void set_gate_factor(const float* layer, const Number* gate, int uni
     factor += layer[GatedOrder<inputs, gates, units>::gate + i * units + unit] * gate[i];
 }
 
-// sums receives the sums before the gate.
+// `sums` receives the sums before the gate.
 template <int inputs, int gates, int units, class Number>
 NOOK_INLINE void gated_forward(const float* layer, const Number* input, const Number* gate, Number* sums,
                                Number* output) {
@@ -131,13 +132,13 @@ NOOK_INLINE void gated_backward(const float* layer, const Number* input, const N
   }
 }
 
-// The numbers of GatedLinear, which are the numbers of GatedDense without slopes.
+// The parameters of GatedLinear: the same as for GatedDense, but without slopes.
 template <int inputs, int gates, int units>
 struct LinearOrder {
   static constexpr int gate = GatedOrder<inputs, gates, units>::gate, count = gate + gates * units;
 };
 
-// sums receives the sums before the gate.
+// `sums` receives the sums before the gate.
 template <int inputs, int gates, int units, class Number>
 NOOK_INLINE void linear_forward(const float* layer, const Number* input, const Number* gate, Number* sums,
                                 Number* output) {
@@ -151,7 +152,8 @@ NOOK_INLINE void linear_forward(const float* layer, const Number* input, const N
   }
 }
 
-// Adds the gradient of the layer's numbers to `gradient`, and the gradient of the inputs to input_gradient.
+// Adds the gradient of the layer's parameters to `gradient`, and the gradient of the inputs to
+// input_gradient.
 template <int inputs, int gates, int units, class Number>
 NOOK_INLINE void linear_backward(const float* layer, const Number* input, const Number* gate,
                                  const Number* sums, const Number* output_gradient, Number* gradient,

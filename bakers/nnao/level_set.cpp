@@ -48,8 +48,8 @@ struct Corner {
   float distance = 0;
 };
 
-// Adds the surface inside a tetrahedron. Its corners are in the order of their bits along the cube's edges,
-// so that neighbouring tetrahedra compute the same bits for a point on their common edge.
+// Adds the surface inside a tetrahedron. The corners are sorted by their index in the cube. So neighbouring
+// tetrahedra compute bit-identical points on their common edge.
 void add_tetrahedron(TriangleSoup& soup, const Mat3x4& frame, const std::array<Corner, 4>& corner) {
   std::array<std::size_t, 4> inside{}, outside{};
   std::size_t inside_count = 0, outside_count = 0;

@@ -18,14 +18,14 @@ constexpr int units = PaperNetwork::units, tap_inputs = PaperNetwork::tap_inputs
 constexpr std::uint32_t cells = PaperNetwork::grid_size * PaperNetwork::grid_size;
 constexpr std::size_t input_count = std::size_t(cells) * tap_inputs;
 
-// The offset of each part among the parameters.
+// The offset of each part in the parameter array.
 constexpr std::size_t filters = 0, first_bias = input_count * units, first_negative = first_bias + units,
                       first_positive = first_negative + units, layer_1 = first_positive + units,
                       layer_2 = layer_1 + LayerOrder<units, units>::count,
                       layer_3 = layer_2 + LayerOrder<units, units>::count,
                       parameter_total = layer_3 + LayerOrder<units, 1>::count;
 
-// Gathers all inputs of a point, not normalised.
+// Gathers all inputs of a point, before normalisation.
 void gather(const Dataset& data, const DataPoint& point, float* inputs) {
   using namespace nook::nnao;
   const View view = data.views[point.view].view();
@@ -44,7 +44,7 @@ void gather(const Dataset& data, const DataPoint& point, float* inputs) {
 
 NOOK_INLINE void dots_plain(const float* weights, const float* inputs, float* sums) {
   for (int u = 0; u < units; ++u) {
-    // Sixteen parallel sums have the same order for any register width.
+    // With sixteen parallel sums, the order of additions does not depend on the register width.
     Lanes sum{};
     const float* w = weights + std::size_t(u) * input_count;
     std::size_t i = 0;
@@ -71,14 +71,14 @@ NOOK_INLINE void add_outer_plain(const float* unit_gradient, const float* inputs
 NOOK_CLONED(void, add_outer, (const float* unit_gradient, const float* inputs, float* gradient),
             (unit_gradient, inputs, gradient))
 
-// Returns the loss of one point and adds its gradient.
+// Returns the loss of one point, and adds its gradient to `gradient`.
 double point_gradient(const Dataset& data, const PaperNormalisation& normalisation,
                       const TrainingSettings& settings, const float* parameters, const DataPoint& point,
                       Random& random, std::vector<float>& inputs, float* gradient) {
   gather(data, point, inputs.data());
   const float keep = 1 - settings.dropout, scale = 1 / keep;
   for (std::size_t i = 0; i < input_count; i += 2) {
-    // One number of 64 bits gives two draws of 32.
+    // One 64-bit random value serves for two 32-bit draws.
     const std::uint64_t bits = random.bits();
     for (std::size_t j = 0; j < 2; ++j) {
       const bool kept = float(std::uint32_t(bits >> (32 * j)) >> 8) * 0x1p-24f < keep;
@@ -122,7 +122,7 @@ void start_paper(std::span<float> parameters, float mean_ao, Random& random) {
   const auto fill = [&](std::size_t first, std::size_t count, float reach) {
     for (std::size_t i = first; i < first + count; ++i) parameters[i] = random.between(-reach, reach);
   };
-  // Glorot's bounds.
+  // Glorot's initialisation bounds.
   fill(filters, input_count * units, std::sqrt(6.0f / float(input_count + units)));
   for (std::size_t u = 0; u < units; ++u) {
     parameters[first_bias + u] = 0;
@@ -143,7 +143,7 @@ void start_paper(std::span<float> parameters, float mean_ao, Random& random) {
 }
 
 PaperNormalisation paper_normalisation(const Dataset& data) {
-  // Mean and deviation converge long before all points are used.
+  // About 20,000 points are enough for the mean and the deviation.
   const std::size_t stride = data.training.size() / 20000 + 1, count = data.training.size() / stride;
   std::vector<double> sum(input_count), squares(input_count);
   std::vector<float> inputs(input_count);
@@ -164,8 +164,9 @@ PaperNormalisation paper_normalisation(const Dataset& data) {
     largest[i % tap_inputs] = std::max(largest[i % tap_inputs], variance(i));
   for (std::size_t i = 0; i < input_count; ++i) {
     normalisation.mean[i] = float(sum[i] / double(count));
-    // The weight of a tap falls to 0 at the rim, and so does its deviation. Division by it would let the rim
-    // dominate the filters. So each deviation counts as at least a quarter of the largest of its kind.
+    // The weight of a tap falls to 0 at the rim of the grid, and so does its deviation. If we divided by it,
+    // the rim would dominate the filters. So we raise each deviation to at least a quarter of the largest
+    // deviation of the same kind of input.
     const double deviation = std::sqrt(std::max(variance(i), largest[i % tap_inputs] / 16));
     normalisation.inverse_deviation[i] = deviation > 0 ? float(1 / deviation) : 0;
   }

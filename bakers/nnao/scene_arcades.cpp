@@ -7,7 +7,7 @@ namespace {
 
 struct Order {
   float height, radius, spacing;
-  int kind;  // 0: turned, 1: fluted, 2: a pier with cut edges
+  int kind;  // 0: round, 1: fluted, 2: a square pier with cut edges
 };
 
 void add_pillar(TriangleSoup& soup, const Mat3x4& frame, const Order& order) {
@@ -41,14 +41,14 @@ void add_pillar(TriangleSoup& soup, const Mat3x4& frame, const Order& order) {
   });
 }
 
-// Adds a wall with an arched opening between x = -half and half, from the springing line to the top.
+// Adds a wall with an arched opening, from x = -half to half and from the springing line (`spring`) to `top`.
 void add_arch(TriangleSoup& soup, const Mat3x4& frame, float half, float opening, float spring, float top,
               float thick, bool pointed) {
   const int parts = 18;
   const auto curve = [&](int i) -> std::array<float, 2> {
     const float t = float(i) / float(parts);
     if (!pointed) return {-opening * std::cos(3.1415927f * t), opening * std::sin(3.1415927f * t)};
-    // Two arcs about the opposite ends.
+    // A pointed arch: two arcs, each centred on the opposite end.
     const float angle = 1.0471976f * (t < 0.5f ? 2 * t : 2 - 2 * t);
     const float x = opening - 2 * opening * std::cos(angle);
     return {t < 0.5f ? x : -x, 2 * opening * std::sin(angle)};
@@ -93,7 +93,7 @@ void add_cornice(TriangleSoup& soup, const Mat3x4& frame, float length, float si
                  {1.05f * size, 1.0f * size},
                  {0, 1.05f * size}}});
   if (random.chance(0.5f))
-    // Dentils below the overhang.
+    // Adds dentils below the overhang.
     for (float x = 0.1f * size; x < length - 0.3f * size; x += 0.5f * size)
       add_block(soup, frame, {x, 0.38f * size, 0}, {x + 0.3f * size, 0.62f * size, 0.85f * size});
 }
@@ -131,7 +131,7 @@ TrainingScene make_arcade(Random& random) {
   const float rise = (pointed ? 1.74f : 1.0f) * (half - 1.3f * order.radius);
   const float top = order.height + (arched ? rise + random.between(0.15f, 0.6f) : 0.5f);
   add_floor(soup, 2 * far + 6);
-  // Slabs with open joints, or steps all round.
+  // Adds slabs with open joints, or steps all round.
   const float platform = random.chance(0.5f) ? 0.0f : 0.45f;
   for (int step = 0; platform > 0 && step < 3; ++step) {
     const float out = 1.2f + 0.35f * float(2 - step), y = 0.15f * float(step);
@@ -155,7 +155,7 @@ TrainingScene make_arcade(Random& random) {
   const float back = -depth * float(rows);
   if (random.chance(0.8f)) {
     add_block(soup, {-far - 1, 0, back - 0.3f}, {far + 1, platform + top + 0.4f, back});
-    // Blind windows: frames and mouldings on the wall.
+    // Adds blind windows: frames and mouldings on the wall.
     for (int i = 0; i < bays; ++i) {
       const Mat3x4 wall = standing_frame({-far + half + order.spacing * float(i), platform, back}, 0);
       add_block(soup, wall, {-0.4f * half, 0.9f, 0}, {0.4f * half, 0.98f, 0.12f});

@@ -6,7 +6,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// The skin of a limb or a trunk about the frame's y axis has a radius for each height and angle.
+// The skin of a limb or a trunk about the frame's y axis: a radius for each height and angle.
 struct Skin {
   float length, waist, swell, flat;
   std::uint64_t seed;
@@ -18,7 +18,7 @@ struct Skin {
   }
 };
 
-// A plate with a thickness, a raised rim and a keel, bent round the skin.
+// Adds a plate that is bent round the skin. It has a thickness, a raised rim and a keel.
 void add_plate(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, float from, float to, float low,
                float high, float lift, float flare, float keel) {
   const int columns = 14, rows = 6;
@@ -39,7 +39,7 @@ void add_plate(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, float 
   }
 }
 
-// Adds bands of plates that overlap the band below, like a breastplate's skirt or an insect's body.
+// Adds bands of plates. Each band overlaps the band below, as on the skirt of a breastplate or on an insect.
 void add_lames(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, Random& random) {
   const int bands = random.whole(3, 12), across = random.whole(1, 5);
   const float overlap = random.between(0.05f, 0.5f), flare = skin.waist * random.between(0.03f, 0.2f),
@@ -59,7 +59,7 @@ void add_lames(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, Random
     }
 }
 
-// Small scales like a roof's or a fish's.
+// Adds small scales, as on a roof or a fish.
 void add_scales(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, Random& random) {
   const int rows = random.whole(12, 30), across = random.whole(12, 28);
   const float lift = random.between(0.1f, 0.4f) / float(rows);
@@ -130,7 +130,7 @@ TrainingScene make_armour(Random& random) {
   TriangleSoup& soup = scene.soup;
   add_floor(soup, 6);
   if (random.chance(0.5f)) add_block(soup, {-3, 0, -1.2f}, {3, 2.6f, -1});
-  // A trunk, with limbs that leave it.
+  // Adds a trunk with limbs.
   const Mat3x4 trunk = standing_frame({0, 0.7f, 0}, random.between(-0.5f, 0.5f));
   const Skin body{random.between(0.5f, 0.8f), random.between(0.16f, 0.25f), random.between(0, 0.1f),
                   random.between(0.6f, 1), random.bits()};
@@ -140,7 +140,7 @@ TrainingScene make_armour(Random& random) {
     add_limb(soup,
              rolled(tilted(shoulder, random.between(0, 0.6f)), 3.1415927f + side * random.between(0, 0.7f)),
              {random.between(0.5f, 0.7f), random.between(0.05f, 0.08f), 0.03f, 1, random.bits()}, random);
-    // The shoulder's plates lie on each other like cups.
+    // The shoulder's plates lie inside each other like stacked cups.
     for (int i = random.whole(1, 5); i > 0; --i) {
       const float r = 0.12f + 0.012f * float(i);
       add_lathe(soup,
@@ -156,7 +156,7 @@ TrainingScene make_armour(Random& random) {
              rolled(moved(trunk, {side * 0.12f, 0.05f, 0}), 3.1415927f + side * random.between(0.05f, 0.2f)),
              {0.72f, random.between(0.07f, 0.11f), 0.03f, 1, random.bits()}, random);
   }
-  // A helmet: a bowl, a visor with slits, a crest.
+  // Adds a helmet: a bowl, a visor with slits, a crest.
   const Mat3x4 head = moved(trunk, {0, body.length + 0.12f, 0});
   add_ellipsoid(soup, head, {0.12f, 0.16f, 0.14f}, 32);
   const Skin skull{0.24f, 0.13f, 0.02f, 1.1f, random.bits()};

@@ -39,7 +39,7 @@ TrainingScene make_clutter(Random& random) {
   const int things = random.whole(40, 220);
   const float largest = random.between(0.15f, 0.6f);
   for (int i = 0; i < things; ++i) {
-    // The distribution is denser near the middle, and objects are stacked where they are crowded.
+    // Objects are denser near the middle. Where they are crowded, they are stacked.
     const float reach = half * random.unit();
     const float angle = random.between(0, 6.2831853f);
     const float size = largest * random.log_between(0.12f, 1);

@@ -6,7 +6,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// A thin cup on a saucer, a bowl or a jug.
+// Adds a thin cup on a saucer, a bowl or a jug.
 void add_crockery(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const float size = random.between(0.03f, 0.06f);
   switch (random.below(4)) {
@@ -42,7 +42,7 @@ void add_dining_table(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, Random
     add_box(soup, moved(frame, {side * (half.x - 0.05f), half.y - 0.08f, 0}),
             {0.012f, 0.06f, half.z - 0.05f});
   }
-  // Turned legs.
+  // The legs are solids of revolution, as made on a lathe.
   const float thick = random.between(0.025f, 0.055f);
   std::vector<std::array<float, 2>> profile;
   for (int i = 0; i <= 12; ++i) profile.push_back({thick * random.between(0.55f, 1), half.y * float(i) / 12});
@@ -58,7 +58,7 @@ void add_dining_table(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, Random
                  random);
 }
 
-// A chair whose seat and back are one bent sheet, on four thin legs with struts.
+// Adds a chair on four thin legs with struts. Its seat and back are one bent sheet.
 void add_shell_chair(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const float half = random.between(0.19f, 0.25f), seat = random.between(0.4f, 0.48f);
   const float back = random.between(0.28f, 0.5f), bend = random.between(0, 0.09f);
@@ -109,7 +109,7 @@ TrainingScene make_dining_room(Random& random) {
     const Mat3x4 frame = standing_frame({-half * std::sin(angle), 0, -half * std::cos(angle)}, angle);
     add_box(soup, moved(frame, {0, 0.5f * height, -0.1f}), {half, 0.5f * height, 0.1f});
     add_box(soup, moved(frame, {0, 0.06f, 0.01f}), {half, 0.06f, 0.012f});
-    // Pictures, and sometimes a sideboard.
+    // Adds pictures, and sometimes a sideboard.
     const int pictures = random.whole(0, 2);
     for (int i = 0; i < pictures; ++i)
       add_box(soup, moved(frame, {random.between(-0.7f, 0.7f) * half, random.between(1.3f, 1.8f), 0.015f}),

@@ -6,7 +6,8 @@
 namespace nook::bake::nnao {
 namespace {
 
-// A curtain along x from 0 to width that hangs down from the frame's origin; its folds grow downwards.
+// Adds a curtain along x from 0 to `width`. It hangs down from the frame's origin, and its folds get deeper
+// downwards.
 void add_curtain(TriangleSoup& soup, const Mat3x4& frame, float width, float drop, Random& random) {
   const std::uint64_t seed = random.bits();
   const float folds = width / random.log_between(0.06f, 0.4f), depth = random.between(0.02f, 0.12f);
@@ -24,7 +25,7 @@ void add_curtain(TriangleSoup& soup, const Mat3x4& frame, float width, float dro
           0.015f);
 }
 
-// A cloth on a table: flat on top, hanging with folds that are deepest at the corners.
+// Adds a cloth on a table. It is flat on top, and its hanging part has folds that are deepest at the corners.
 void add_tablecloth(TriangleSoup& soup, const Mat3x4& frame, bool round, Random& random) {
   const float radius = random.between(0.4f, 0.8f), height = random.between(0.5f, 0.8f),
               drop = random.between(0.15f, 0.98f) * height;
@@ -49,7 +50,7 @@ void add_tablecloth(TriangleSoup& soup, const Mat3x4& frame, bool round, Random&
                       random.between(0.03f, 0.1f), random);
 }
 
-// Adds a sheet thrown over some boxes: the highest of their smooth tops, with crumples.
+// Adds a sheet thrown over some boxes. Its height is the maximum of their smoothed tops, plus crumples.
 void add_dust_sheet(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   struct Bump {
     float x, z, half_x, half_z, height;
@@ -77,7 +78,7 @@ void add_dust_sheet(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   });
 }
 
-// Folded towels or clothes: stacks of layers with round front edges.
+// Adds folded towels or clothes: stacks of layers with round front edges.
 void add_folded_stack(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   float y = 0;
   const float half = random.between(0.12f, 0.25f);
@@ -91,7 +92,7 @@ void add_folded_stack(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   }
 }
 
-// A hanging banner or washing on a line, blown out.
+// Adds a hanging banner, or washing on a line. Both are blown by the wind.
 void add_banner(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const float width = random.between(0.3f, 1.2f), drop = random.between(0.4f, 1.4f),
               blow = random.between(-0.4f, 0.4f);

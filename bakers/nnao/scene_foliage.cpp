@@ -3,7 +3,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// A leaf or a blade: two triangles, bent at the middle.
+// Adds a leaf or a blade of grass: two triangles, bent in the middle.
 void add_leaf(TriangleSoup& soup, Vec3 foot, Vec3 along, Vec3 across, float bend) {
   const Vec3 middle = foot + 0.5f * along, tip = foot + along - Vec3{0, bend, 0};
   add_triangle(soup, foot, middle + across, middle - across);

@@ -32,7 +32,7 @@ void add_tuft(TriangleSoup& soup, Vec3 at, const Leaves& leaves, Random& random)
   }
 }
 
-// A branch that bends, tapers and forks, down to twigs with leaves.
+// Adds a branch that bends, tapers and forks, down to twigs with leaves.
 void add_branch(TriangleSoup& soup, Vec3 from, Vec3 way, float length, float radius, int depth,
                 const Leaves& leaves, Random& random) {
   std::vector<Vec3> path{from};
@@ -57,7 +57,7 @@ void add_branch(TriangleSoup& soup, Vec3 from, Vec3 way, float length, float rad
   }
 }
 
-// A trunk with furrowed bark and roots that spread.
+// Adds a trunk with furrowed bark and spreading roots.
 void add_trunk(TriangleSoup& soup, Vec3 foot, float height, float radius, Random& random) {
   const std::uint64_t seed = random.bits();
   const int ridges = random.whole(8, 22), roots = random.whole(3, 7);
@@ -85,7 +85,7 @@ void add_grown_tree(TriangleSoup& soup, Vec3 foot, float height, const Leaves& l
   }
 }
 
-// Trees as they are drawn from afar: tiers of ragged cones, or heaps of rough balls.
+// Adds a distant tree in low detail: tiers of ragged cones, or a heap of rough balls.
 void add_far_tree(TriangleSoup& soup, Vec3 foot, float height, bool conifer, Random& random) {
   const std::uint64_t seed = random.bits();
   add_cylinder(soup, foot - Vec3{0, 0.5f, 0}, foot + Vec3{0, 0.5f * height, 0}, 0.03f * height,
@@ -117,7 +117,7 @@ void add_far_tree(TriangleSoup& soup, Vec3 foot, float height, bool conifer, Ran
   }
 }
 
-// Ivy: leaves that lie on a wall in a patch, over stems.
+// Adds a patch of ivy on a wall: leaves over stems.
 void add_ivy(TriangleSoup& soup, float half, float height, float z, Random& random) {
   const std::uint64_t seed = random.bits();
   const float size = random.between(0.05f, 0.11f);

@@ -5,7 +5,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// All pieces stand on y = 0 of their frame with their backs at z = 0 and their fronts along +z, x from 0.
+// In its frame, each piece stands on y = 0, has its back at z = 0, faces +z, and starts at x = 0.
 
 void add_handle(TriangleSoup& soup, const Mat3x4& frame, float width, int kind) {
   if (kind == 0) {
@@ -20,7 +20,7 @@ void add_handle(TriangleSoup& soup, const Mat3x4& frame, float width, int kind) 
            0.005f, 8);
 }
 
-// Fronts of drawers or doors, with gaps between them; some stand open.
+// Adds fronts of drawers or doors, with gaps between them. Some are open.
 void add_fronts(TriangleSoup& soup, const Mat3x4& frame, float width, float height, int columns, int rows,
                 Random& random) {
   const float gap = random.between(0.0015f, 0.008f), proud = random.chance(0.5f) ? 0.0f : 0.018f;
@@ -69,7 +69,7 @@ void add_books(TriangleSoup& soup, const Mat3x4& frame, float width, float heigh
   while (x < width - 0.07f) {
     const float thick = random.between(0.008f, 0.05f), tall = height * random.between(0.55f, 0.95f),
                 deep = depth * random.between(0.55f, 0.9f);
-    if (random.chance(0.08f)) {  // a pile that lies
+    if (random.chance(0.08f)) {  // a pile of lying books
       float y = 0;
       for (int i = random.whole(2, 5); i > 0; --i) {
         const float t = random.between(0.015f, 0.04f);
@@ -87,7 +87,7 @@ void add_books(TriangleSoup& soup, const Mat3x4& frame, float width, float heigh
       continue;
     }
     const Mat3x4 book = rolled(moved(frame, {x + 0.5f * thick, 0, 0.02f}), random.chance(0.1f) ? -0.12f : 0);
-    // The spine's side stands over the pages at the top.
+    // The covers are taller than the pages.
     add_block(soup, book, {-0.5f * thick, 0, 0}, {-0.5f * thick + 0.002f, tall, deep});
     add_block(soup, book, {0.5f * thick - 0.002f, 0, 0}, {0.5f * thick, tall, deep});
     add_block(soup, book, {-0.5f * thick, 0, deep - 0.003f}, {0.5f * thick, tall, deep});
@@ -148,7 +148,7 @@ void add_bed(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
                 tilted(moved(frame, {(width > 1.3f ? 0.27f + 0.46f * float(i) : 0.5f) * width, 0.58f, 0.3f}),
                        random.between(-0.3f, 0)),
                 {0.2f * std::min(width, 1.7f), 0.08f, 0.2f}, 0.6f);
-  // A blanket that hangs over the sides in folds.
+  // Adds a blanket that hangs over the sides in folds.
   const float fold = random.between(4, 14), hang = random.between(0.15f, 0.35f);
   add_sheet(soup, 80, 60, [&](float u, float v) {
     const float across = (2 * u - 1) * (0.52f * width + hang),
@@ -176,7 +176,7 @@ void add_radiator(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
             transform_point(frame, {pitch * float(ribs), y, 0.1f}), 0.018f);
 }
 
-// A wall of the room along x from 0 to width, whose surface is at z = 0, and its opening.
+// Adds a wall of the room with its opening. It runs along x from 0 to `width`, and its surface is at z = 0.
 void add_room_wall(TriangleSoup& soup, const Mat3x4& frame, float width, float height, bool door, bool window,
                    Random& random) {
   const float middle = random.between(0.3f, 0.7f) * width, half = door ? 0.45f : random.between(0.4f, 0.9f);

@@ -5,7 +5,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// A beam of an I section along the frame's x axis from 0 to length, its middle at y = 0.
+// Adds an I-beam along the frame's x axis, from 0 to `length`. Its middle is at y = 0.
 void add_beam(TriangleSoup& soup, const Mat3x4& frame, float length, float height) {
   const float flange = 0.3f * height, thick = 0.05f * height;
   add_block(soup, frame, {0, -0.5f * height, -thick}, {length, 0.5f * height, thick});
@@ -54,7 +54,7 @@ void add_pipe_run(TriangleSoup& soup, const Mat3x4& frame, float length, float r
   }
 }
 
-// A duct of sheet metal with seams.
+// Adds a sheet-metal duct with seams.
 void add_duct(TriangleSoup& soup, const Mat3x4& frame, float length, float size, Random& random) {
   const float tall = size * random.between(0.5f, 1), part = random.between(0.6f, 1.4f);
   for (float x = 0; x < length; x += part) {

@@ -9,7 +9,8 @@ Mat3x4 at(Vec3 place) {
   return {{1, 0, 0, place.x, 0, 1, 0, place.y, 0, 0, 1, place.z}};
 }
 
-// Plates and boxes of all sizes on one side of a section; out is +1 or -1 along the axis 1 (y) or 2 (z).
+// Adds plates and boxes of all sizes to one side of a section. `axis` is 1 (y) or 2 (z), and `out` is the
+// direction along it, +1 or -1.
 void add_plating(TriangleSoup& soup, Vec3 middle, Vec3 half, int axis, float out, int pieces,
                  Random& random) {
   for (int i = 0; i < pieces; ++i) {
@@ -25,7 +26,7 @@ void add_plating(TriangleSoup& soup, Vec3 middle, Vec3 half, int axis, float out
       place.z += out * half.z;
       place.y += random.between(-0.9f, 0.9f) * half.y;
     }
-    // Both halves of the body are equal, as in hulls.
+    // The hull is mirrored in z.
     for (const float mirror : {1.0f, -1.0f}) add_box(soup, at({place.x, place.y, mirror * place.z}), piece);
   }
 }
@@ -38,7 +39,7 @@ void add_engine(TriangleSoup& soup, Vec3 place, float radius, float length, Rand
     const Vec3 hub = place - Vec3{length * (float(i) + 0.5f) / float(rings), 0, 0};
     add_cylinder(soup, hub, hub + Vec3{0.04f, 0, 0}, 1.1f * radius, 1.1f * radius, 20);
   }
-  // The nozzle: an open bell, its axis along -x.
+  // Adds the nozzle: an open bell that points along -x.
   const Mat3x4 backwards{{0, -1, 0, tail.x, 1, 0, 0, tail.y, 0, 0, 1, tail.z}};
   add_lathe(
       soup, backwards,

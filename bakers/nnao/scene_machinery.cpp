@@ -3,7 +3,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// A pipe that turns at right angles, with flanges at its bends.
+// Adds a pipe with right-angle bends, and flanges at the bends.
 void add_pipe(TriangleSoup& soup, Vec3 from, float radius, Random& random) {
   const int bends = random.whole(2, 6);
   int axis = random.whole(0, 2);
@@ -41,7 +41,7 @@ void add_wheel(TriangleSoup& soup, const Mat3x4& frame, float radius, Random& ra
     }
 }
 
-// A cable that hangs between two points.
+// Adds a cable that hangs between two points.
 void add_cable(TriangleSoup& soup, Vec3 from, Vec3 to, float sag, float radius) {
   constexpr int parts = 10;
   Vec3 before = from;
@@ -53,7 +53,7 @@ void add_cable(TriangleSoup& soup, Vec3 from, Vec3 to, float sag, float radius) 
   }
 }
 
-// A housing with ribs, bolts and a recess.
+// Adds a housing with ribs, bolts and a recess.
 void add_housing(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const Vec3 half{random.between(0.2f, 0.7f), random.between(0.2f, 0.7f), random.between(0.2f, 0.5f)};
   const Mat3x4 lifted = frame * Mat3x4{{1, 0, 0, 0, 0, 1, 0, half.y, 0, 0, 1, 0}};

@@ -8,7 +8,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// Triangles that are connected by their corners, as indices of triangles.
+// A connected component of a soup: the indices of triangles that share corners, and their bounding box.
 struct Piece {
   Vec3 low{1e9f, 1e9f, 1e9f}, high{-1e9f, -1e9f, -1e9f};
   std::vector<std::uint32_t> triangles;
@@ -48,7 +48,8 @@ std::vector<Piece> pieces_of(const TriangleSoup& soup) {
   return pieces;
 }
 
-// Returns the height of the highest surface at (x, z) that is not above a limit, or -infinity.
+// Returns the height of the highest surface at (x, z) that is not above `limit`, or -infinity if there is
+// none.
 float surface_below(const TriangleSoup& soup, float x, float z, float limit) {
   float best = -std::numeric_limits<float>::infinity();
   for (const auto& t : soup.triangle) {
@@ -71,7 +72,7 @@ float across(const Piece& piece) {
 
 void add_guests(TrainingScene& host, const TrainingScene& guest, Random& random) {
   std::vector<Piece> pieces = pieces_of(guest.soup);
-  // Floors and walls stay at home.
+  // Large pieces, such as floors and walls, are not copied.
   const float largest = 2.2f * guest.size;
   std::erase_if(pieces, [&](const Piece& p) { return across(p) > largest; });
   if (pieces.empty()) return;

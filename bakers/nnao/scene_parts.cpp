@@ -3,7 +3,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// All parts are about 0.1 m in size and lie on y = 0 of their frame.
+// All parts are about 0.1 m in size. In its frame, each part lies on y = 0.
 
 void add_screw(TriangleSoup& soup, const Mat3x4& frame, float radius, Random& random) {
   const auto at = [&](float y) { return transform_point(frame, {0, y, 0}); };
@@ -39,7 +39,7 @@ void add_screw(TriangleSoup& soup, const Mat3x4& frame, float radius, Random& ra
   }
 }
 
-// Adds a gear, which has teeth, a web with holes or spokes, and a hub with a bore.
+// Adds a gear with teeth, a web with holes or spokes, and a hub with a bore.
 void add_gear(TriangleSoup& soup, const Mat3x4& frame, float radius, float thick, Random& random) {
   const int teeth = random.whole(10, 36);
   const float tooth = 6.2831853f * radius / float(teeth) * 0.45f, bevel = 0.1f * tooth;
@@ -103,7 +103,7 @@ void add_spring(TriangleSoup& soup, const Mat3x4& frame, float radius, float hei
   add_tube(soup, path, radius * random.between(0.1f, 0.22f), 8);
 }
 
-// Adds a block of housing with steps, pockets, fins, bosses and screws, symmetric or not.
+// Adds a housing with steps, pockets, fins, bosses and screws. It may be symmetric.
 void add_casting(TriangleSoup& soup, const Mat3x4& frame, Vec3 half, Random& random) {
   const float bevel = half.y * random.log_between(0.02f, 0.3f);
   add_bevelled_box(soup, moved(frame, {0, half.y, 0}), half, bevel);
@@ -184,7 +184,7 @@ TrainingScene make_parts(Random& random) {
   TrainingScene scene;
   TriangleSoup& soup = scene.soup;
   add_floor(soup, 2);
-  // Adds a base plate with rows of parts. The scene is as large as a work bench, and parts are hand-sized.
+  // Adds a base plate with rows of parts. The scene is as large as a workbench, and the parts are hand-sized.
   const float plate = random.between(0.012f, 0.03f);
   add_bevelled_box(soup, standing_frame({0, 0.5f * plate, 0}, 0), {0.4f, 0.5f * plate, 0.3f}, 0.3f * plate);
   for (const float x : {-0.36f, 0.36f})

@@ -3,7 +3,8 @@
 namespace nook::bake::nnao {
 namespace {
 
-// Two bones with a joint between, bent towards `bend`.
+// Adds two bones with a joint between them. `bend` moves the joint away from the middle. Returns the
+// direction of the second bone.
 Vec3 add_limb(TriangleSoup& soup, Vec3 from, Vec3 to, Vec3 bend, float thick, float thin) {
   const Vec3 joint = 0.5f * (from + to) + bend;
   add_capsule(soup, from, joint, thick, 14);

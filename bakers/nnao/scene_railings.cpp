@@ -27,7 +27,7 @@ void add_grille(TriangleSoup& soup, Vec3 corner, Vec3 u, Vec3 v, int columns, in
   }
 }
 
-// Pickets of board, pointed.
+// Adds a fence of pointed boards.
 void add_picket_fence(TriangleSoup& soup, Vec3 from, Vec3 to, float height, Random& random) {
   const Vec3 along = normalised(to - from), back = cross(along, {0, 1, 0});
   const float width = random.between(0.05f, 0.1f), gap = width * random.between(0.3f, 1.2f);

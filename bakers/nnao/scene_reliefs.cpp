@@ -6,7 +6,8 @@
 namespace nook::bake::nnao {
 namespace {
 
-// Surfaces fill x = 0 to width and y = 0 to height of the frame, and stand out along z from about 0.
+// An area for a surface. In the frame, it covers x = 0 to `width` and y = 0 to `height`. The surface is at
+// about z = 0, and its relief stands out along +z.
 struct Wall {
   Mat3x4 frame;
   float width, height;
@@ -61,7 +62,7 @@ void add_planks(TriangleSoup& soup, const Wall& wall, Random& random) {
     }
 }
 
-// Adds rows of tiles that overlap the row below. They are half pipes or flat.
+// Adds rows of tiles, which are half pipes or flat. Each row overlaps the row below.
 void add_tiles(TriangleSoup& soup, const Wall& wall, Random& random) {
   const float tile = random.between(0.12f, 0.3f), row = tile * random.between(0.8f, 1.4f),
               bend = random.chance(0.6f) ? 0.5f : 0.03f;
@@ -87,7 +88,7 @@ void add_corrugation(TriangleSoup& soup, const Wall& wall, Random& random) {
   });
 }
 
-// Rosettes, waves and rings in low relief, or rough plaster.
+// Adds rosettes, waves and rings in low relief, or rough plaster.
 void add_carving(TriangleSoup& soup, const Wall& wall, Random& random) {
   const float cell = random.log_between(0.15f, 0.8f), depth = cell * random.between(0.05f, 0.25f);
   const int petals = random.whole(3, 12), kind = random.whole(0, 2);

@@ -43,7 +43,7 @@ void add_chair(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
 
 namespace {
 
-// Boards, uprights and books against the wall z = 0 of the frame.
+// Adds a shelf of boards, uprights and books against the frame's wall z = 0.
 void add_shelf(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const float width = random.between(0.4f, 0.9f), depth = random.between(0.12f, 0.22f);
   const int boards = random.whole(2, 6);
@@ -107,7 +107,7 @@ TrainingScene make_room(Random& random) {
                 frame * Mat3x4{{1, 0, 0, random.between(-half, half) * 0.6f, 0, 1, 0,
                                 random.chance(0.5f) ? 0 : 0.9f, 0, 0, 1, 0}},
                 random);
-    // Skirting and mouldings.
+    // Adds skirting boards and mouldings.
     add_box(soup, frame * Mat3x4{{1, 0, 0, 0, 0, 1, 0, 0.05f, 0, 0, 1, 0.01f}}, {half, 0.05f, 0.012f});
   }
   const int pieces = random.whole(4, 10);

@@ -5,7 +5,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// Piles stand on y = 0 of their frame, around its origin. All are at most about 1.2 m wide.
+// In its frame, each pile stands on y = 0 around the origin. Piles are at most about 1.2 m wide.
 
 void add_pallet(TriangleSoup& soup, const Mat3x4& frame) {
   for (int i = 0; i < 7; ++i)
@@ -33,7 +33,7 @@ void add_cartons(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
                           z + random.between(-jitter, jitter)}) *
             standing_frame({}, random.between(-jitter, jitter));
         add_bevelled_box(soup, box, half, 0.004f);
-        // The flaps' slit and a band of tape.
+        // Adds the tape over the slit between the flaps.
         add_block(soup, box, {-0.02f, half.y, -half.z}, {0.02f, half.y + 0.001f, half.z});
       }
 }
@@ -98,7 +98,7 @@ void add_logs(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
     }
 }
 
-// Bottles, jars or cans in ranks, in a crate or not.
+// Adds rows of bottles, jars or cans, sometimes in a crate.
 void add_bottles(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const float r = random.between(0.03f, 0.06f), h = r * random.between(2, 8);
   const bool neck = random.chance(0.6f), crate = random.chance(0.5f);
@@ -179,7 +179,7 @@ void add_pile(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   piles[random.below(8)](soup, frame, random);
 }
 
-// Racks of uprights and beams with piles on each level.
+// Adds a rack of uprights and beams, with piles on each level.
 void add_rack(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const int bays = random.whole(1, 3), levels = random.whole(2, 3);
   const float width = 1.5f, gap = random.between(1.2f, 1.6f), depth = 1;

@@ -8,7 +8,7 @@ struct Flight {
   float rise, run, half_width;
 };
 
-// Up along z from the frame's origin; solid, or open treads.
+// Adds a flight of stairs that goes up along z from the frame's origin. It is solid, or has open treads.
 void add_flight(TriangleSoup& soup, const Mat3x4& frame, const Flight& flight, bool solid, Random& random) {
   const float nosing = random.between(0, 0.04f), tread = random.between(0.02f, 0.06f);
   for (int i = 0; i < flight.steps; ++i) {
@@ -57,7 +57,7 @@ TrainingScene make_stairs(Random& random) {
   const Mat3x4 first = standing_frame({random.between(-0.6f, 0.6f), 0, 1.5f}, angle);
   add_flight(soup, first, flight, random.chance(0.6f), random);
   const float top = flight.rise * float(flight.steps), far = flight.run * float(flight.steps);
-  // Adds the landing, a wall behind it, and a flight down or a fence.
+  // Adds the landing, a wall behind it, and either a second flight that goes down or a fence.
   add_box(soup, first * Mat3x4{{1, 0, 0, 0, 0, 1, 0, top - 0.08f, 0, 0, 1, far + 0.7f}},
           {flight.half_width + 0.8f, 0.08f, 0.7f});
   if (random.chance(0.7f))

@@ -11,12 +11,12 @@ struct Limb {
   float radius_from, radius_to;
 };
 
-// A body of limbs with round seams; folds and roughness are added to the distance.
+// A body of limbs with rounded seams. Folds and roughness are added to its distance function.
 struct Sculpture {
   std::vector<Limb> limbs;
   float seam = 0.08f;
-  float rough = 0, rough_scale = 5;  // metres, per metre
-  float fold = 0, fold_scale = 30;   // of a robe below fold_below
+  float rough = 0, rough_scale = 5;  // amplitude in metres; frequency per metre
+  float fold = 0, fold_scale = 30;   // of a robe, below the height fold_below
   float fold_below = 0;
   std::uint64_t seed = 0;
 
@@ -46,7 +46,7 @@ void add_sculpture(TriangleSoup& soup, const Mat3x4& frame, const Sculpture& scu
   add_level_set(soup, frame, low, high, cell, [&](Vec3 p) { return sculpture.distance(p); });
 }
 
-// A face's parts from the middle of a skull of radius 0.1.
+// Adds the parts of a face. Their positions are relative to the middle of a skull of radius 0.1 m.
 void add_head(std::vector<Limb>& limbs, Vec3 at, Random& random) {
   const auto part = [&](Vec3 from, Vec3 to, float a, float b) {
     limbs.push_back({at + from, at + to, a, b});
@@ -114,7 +114,7 @@ Sculpture any_bust(Random& random) {
   return s;
 }
 
-// An animal, or something like a root or a coral.
+// Returns an animal, or a shape like a root or a coral.
 Sculpture any_creature(Random& random) {
   Sculpture s;
   s.seam = random.between(0.04f, 0.15f);
@@ -148,7 +148,7 @@ TrainingScene make_statues(Random& random) {
   TriangleSoup& soup = scene.soup;
   add_floor(soup, 9);
   if (random.chance(0.7f)) {
-    // A wall with a niche.
+    // Adds a wall with a niche.
     const float z = -1.4f;
     add_block(soup, {-4, 0, z - 0.3f}, {-0.7f, 3, z});
     add_block(soup, {0.7f, 0, z - 0.3f}, {4, 3, z});

@@ -23,7 +23,7 @@ Style any_style(Random& random) {
           random.chance(0.6f)};
 }
 
-// One bay of one storey, from x = 0 to bay, in front of the plane z = 0.
+// Adds one bay of one storey, from x = 0 to Style::bay, in front of the plane z = 0.
 void add_bay(TriangleSoup& soup, const Mat3x4& frame, const Style& style, bool ground, bool door,
              Random& random) {
   const float x0 = 0.5f * (style.bay - style.width), x1 = x0 + style.width;
@@ -33,7 +33,7 @@ void add_bay(TriangleSoup& soup, const Mat3x4& frame, const Style& style, bool g
   add_block(soup, frame, {x1, 0, -d}, {style.bay, style.storey, 0});
   add_block(soup, frame, {x0, y1, -d}, {x1, style.storey, 0});
   if (!door) add_block(soup, frame, {x0, 0, -d}, {x1, y0, 0});
-  // The frame of the window stands back in its reveal, and the glass behind it.
+  // The window's frame is set back in the wall, and the glass is behind the frame.
   const float bar = 0.035f;
   add_block(soup, frame, {x0, y0, -d}, {x0 + 2 * bar, y1, -d + bar});
   add_block(soup, frame, {x1 - 2 * bar, y0, -d}, {x1, y1, -d + bar});
@@ -48,7 +48,7 @@ void add_bay(TriangleSoup& soup, const Mat3x4& frame, const Style& style, bool g
   if (door) {
     add_block(soup, frame, {x0 - 0.2f, 0, 0}, {x1 + 0.2f, 0.15f, 0.35f});
     if (random.chance(0.5f)) {
-      // An awning.
+      // Adds an awning.
       const auto at = [&](float x, float y, float z) { return transform_point(frame, {x, y, z}); };
       add_quad(soup, at(x0 - 0.2f, y1 + 0.2f, 0), at(x1 + 0.2f, y1 + 0.2f, 0), at(x1 + 0.2f, y1 - 0.1f, 0.9f),
                at(x0 - 0.2f, y1 - 0.1f, 0.9f));
@@ -68,7 +68,7 @@ void add_bay(TriangleSoup& soup, const Mat3x4& frame, const Style& style, bool g
   }
 }
 
-// Returns the width of the house, which stands from x = 0 of the frame, with its front at z = 0.
+// Adds a house. It begins at x = 0 in the frame, and its front is at z = 0. Returns its width.
 float add_house(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const Style style = any_style(random);
   const int storeys = random.whole(1, 5), bays = random.whole(2, 5);
@@ -86,7 +86,7 @@ float add_house(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
     for (int s = 1; s < storeys; ++s)
       add_block(soup, frame, {0, style.storey * float(s) - 0.1f, 0}, {width, style.storey * float(s), 0.06f});
   if (random.chance(0.5f)) {
-    // A roof and its chimneys.
+    // Adds a roof with chimneys.
     const auto at = [&](float x, float y, float z) { return transform_point(frame, {x, height + y, z}); };
     add_quad(soup, at(0, 0.1f, out), at(width, 0.1f, out), at(width, 2.2f, -3), at(0, 2.2f, -3));
     add_quad(soup, at(0, 0.1f, -6), at(width, 0.1f, -6), at(width, 2.2f, -3), at(0, 2.2f, -3));
@@ -137,7 +137,7 @@ TrainingScene make_street(Random& random) {
       add_bevelled_box(soup, standing_frame({x, 0.5f * kerb, front}, 0), {0.49f, 0.5f * kerb + 0.01f, 0.08f},
                        0.015f);
     if (side > 0 && !both) continue;
-    // Houses turn their fronts to the road.
+    // The fronts of the houses face the road.
     const float turned = side < 0 ? 0 : 3.1415927f;
     for (float x = -reach; x < reach;) {
       const Mat3x4 frame = standing_frame({-side * x, kerb, side * (road + walk)}, turned);

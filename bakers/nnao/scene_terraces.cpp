@@ -4,10 +4,10 @@
 namespace nook::bake::nnao {
 namespace {
 
-// Heights of a landscape 1 wide, from x and z in [-1, 1].
+// The height of a landscape as a function of x and z in [-1, 1].
 struct Land {
   std::uint64_t seed;
-  float scale, tall, terrace;  // terrace: the height of a step, 0 for none
+  float scale, tall, terrace;  // `terrace` is the height of a step; 0: no steps
   float sharpness;             // of the steps' edges
   bool ridged;
 
@@ -26,7 +26,7 @@ struct Land {
   }
 };
 
-// Adds cubes of one size that follow the land, as in games of blocks.
+// Adds cubes of equal size that follow the land, as in voxel games.
 void add_voxels(TriangleSoup& soup, const Land& land, float reach, int cells) {
   const float cube = 2 * reach / float(cells);
   const auto level = [&](int i, int j) {
@@ -50,7 +50,7 @@ void add_voxels(TriangleSoup& soup, const Land& land, float reach, int cells) {
     }
 }
 
-// A town of towers with set-backs, seen from above.
+// Adds a town of towers with set-backs. The cameras see it from above.
 void add_town(TriangleSoup& soup, float reach, Random& random) {
   const float block = random.between(1.2f, 3), street = block * random.between(0.15f, 0.5f),
               tall = random.between(1, 5);

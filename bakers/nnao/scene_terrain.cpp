@@ -28,7 +28,7 @@ float hills(std::uint64_t seed, float x, float z, float roughness) {
   return sum;
 }
 
-// A square of ground, or a roof where it hangs.
+// Adds a square of ground, or the roof of a cave, depending on `height`.
 template <class Height>
 void add_ground(TriangleSoup& soup, float half, int cells, const Height& height) {
   const auto first = std::uint32_t(soup.position.size());
@@ -45,7 +45,7 @@ void add_ground(TriangleSoup& soup, float half, int cells, const Height& height)
     }
 }
 
-// A ball with dents.
+// Adds a ball with dents.
 void add_rock(TriangleSoup& soup, Vec3 middle, float size, std::uint64_t seed, Random& random) {
   TriangleSoup ball;
   add_ellipsoid(ball, {}, {1, 1, 1}, 40);

@@ -22,7 +22,7 @@ Coach any_coach(Random& random) {
           van ? 0.12f : random.between(0.22f, 0.32f)};
 }
 
-// A tyre with a tread, a rim with spokes.
+// Adds a tyre with a tread, and a rim with spokes.
 void add_car_wheel(TriangleSoup& soup, const Mat3x4& frame, float radius, Random& random) {
   const float half = 0.1f;
   const Mat3x4 axle = tilted(frame, 1.5707963f);
@@ -56,7 +56,7 @@ void add_car_wheel(TriangleSoup& soup, const Mat3x4& frame, float radius, Random
 void add_car(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const Coach c = any_coach(random);
   const float half = 0.5f * c.length, axle = 0.58f * half, arch = c.wheel + 0.05f;
-  // The body along z: a section for each place, whose sides draw in above the belt and round the ends.
+  // Adds the body as cross-sections along z. Its sides are drawn in above the belt and rounded at the ends.
   const auto deck = [&](float t) {  // the height of the belt
     const float end = std::abs(2 * t - 1);
     return (t > 0.5f ? c.nose : c.tail) + (c.belt - (t > 0.5f ? c.nose : c.tail)) * (1 - end * end * end);
@@ -91,11 +91,11 @@ void add_car(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
       add_torus(soup, tilted(moved(frame, {side * 0.75f * w, h - 0.12f, end * (half + 0.01f)}), 1.5707963f),
                 0.08f, 0.02f, 16);
   }
-  // The grille and the plate.
+  // Adds the grille and the number plate.
   for (int i = 0; i < 5; ++i)
     add_block(soup, frame, {-0.4f, c.nose - 0.22f + 0.035f * float(i), half},
               {0.4f, c.nose - 0.205f + 0.035f * float(i), half + 0.03f});
-  // The cabin: a shell that leans in, with pillars that stand out from the glass.
+  // Adds the cabin: a shell that leans inwards, with pillars that stand out from the glass.
   const float front = half * (1 - 2 * c.bonnet), back = -half * 0.85f,
               roof_front = front - 0.55f * (c.roof - c.belt), roof_back = back + 0.35f * (c.roof - c.belt);
   const auto cabin = [&](float s, float v, float out) {  // s runs round, v up
@@ -120,7 +120,7 @@ void add_car(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
              {transform_point(frame, middle),
               transform_point(frame, 0.5f * (cabin(1, 1, out) + cabin(-1, 1, out)))},
              0.035f, 6);
-    // A mirror and a handle.
+    // Adds a mirror and a handle.
     add_bevelled_box(soup, moved(frame, {out * (0.5f * c.width + 0.06f), c.belt + 0.06f, front - 0.15f}),
                      {0.09f, 0.06f, 0.04f}, 0.02f);
     add_block(soup, frame, {out * (0.5f * c.width + 0.02f) - 0.015f, c.belt - 0.2f, -0.3f},
@@ -131,7 +131,7 @@ void add_car(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
                         standing_frame({}, out > 0 ? 1.5707963f : -1.5707963f),
                     c.wheel, random);
   }
-  // The floor of the body, and the arches' inner walls.
+  // Adds the floor of the body, and the inner walls of the wheel arches.
   add_block(soup, frame, {-0.5f * c.width + 0.25f, c.clearance, -half + 0.1f},
             {0.5f * c.width - 0.25f, c.clearance + 0.25f, half - 0.1f});
 }
@@ -162,7 +162,7 @@ void add_bicycle(TriangleSoup& soup, const Mat3x4& frame) {
   add_torus(soup, moved(frame, {0.04f, 0.3f, 0}) * across, 0.09f, 0.008f, 24);
 }
 
-// A trailer of a chassis, a load bed with stakes, and tracks or wheels.
+// Adds a trailer: a chassis, a load bed with stakes, and tracks or wheels.
 void add_trailer(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const float half = random.between(1.2f, 2.5f), width = random.between(0.7f, 1.1f),
               bed = random.between(0.7f, 1);

@@ -15,7 +15,7 @@ std::vector<Vec3> hanging(Vec3 from, Vec3 to, float sag, int parts) {
   return path;
 }
 
-// Woven wire in the frame's x-y plane: zigzags that meet at their bends.
+// Adds woven wire in the frame's x-y plane: zigzags that meet at their bends.
 void add_chain_link(TriangleSoup& soup, const Mat3x4& frame, float width, float height, Random& random) {
   const float mesh = random.between(0.05f, 0.14f), wire = mesh * random.between(0.02f, 0.07f);
   for (float x = 0; x < width; x += mesh) {
@@ -32,7 +32,8 @@ void add_chain_link(TriangleSoup& soup, const Mat3x4& frame, float width, float 
   add_rod(soup, transform_point(frame, {0, height, 0}), transform_point(frame, {width, height, 0}), 0.02f, 8);
 }
 
-// A net that hangs between poles, or lies over something: strands along both ways of a bent sheet.
+// Adds a net that hangs between poles or lies over something. Its strands run in both directions of a bent
+// sheet.
 void add_net_of_rope(TriangleSoup& soup, const Mat3x4& frame, float width, float height, Random& random) {
   const std::uint64_t seed = random.bits();
   const int columns = random.whole(8, 26), rows = std::max(4, int(float(columns) * height / width));
@@ -87,7 +88,7 @@ void add_coil(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   add_tube(soup, path, wire, 6);
 }
 
-// Poles, ledgers, braces and boards.
+// Adds a scaffold of poles, ledgers, braces and boards.
 void add_scaffold(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const int bays = random.whole(2, 3), levels = random.whole(1, 3);
   const float bay = random.between(1.4f, 2), lift = random.between(1.6f, 2), deep = 0.9f, pole = 0.024f;

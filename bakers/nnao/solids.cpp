@@ -8,7 +8,7 @@ namespace {
 
 constexpr float turn = 2 * std::numbers::pi_v<float>;
 
-// A grid of rings x sides quads over a point function of (ring, side); the sides are closed.
+// Adds rings x sides quads. point(ring, side) returns their corners. The last side connects to the first.
 template <class Point>
 void add_net(TriangleSoup& soup, int rings, int sides, const Point& point) {
   const auto first = std::uint32_t(soup.position.size());
@@ -128,7 +128,7 @@ void add_capsule(TriangleSoup& soup, Vec3 from, Vec3 to, float radius, int sides
   axes_across(to - from, u, v);
   const Vec3 axis = normalised(to - from);
   add_net(soup, rings, sides, [&](int ring, int side) {
-    // Rings 0 to 4 are around the first end, 5 to 9 around the other.
+    // Rings 0 to 4 are around the first end, rings 5 to 9 around the other end.
     const float latitude = 0.25f * turn * (ring < 5 ? float(ring - 4) / 4 : float(ring - 5) / 4);
     const float angle = turn * float(side) / float(sides);
     return (ring < 5 ? from : to) +
@@ -172,7 +172,7 @@ void add_tube(TriangleSoup& soup, const std::vector<Vec3>& path, const std::vect
   axes_across(path[1] - path[0], u, v);
   std::vector<std::array<Vec3, 2>> axes;
   for (std::size_t i = 0; i <= last; ++i) {
-    // The axes follow the path without a twist.
+    // The two axes follow the path without twisting.
     const Vec3 along = normalised(path[std::min(i + 1, last)] - path[i == 0 ? 0 : i - 1]);
     u = normalised(u - dot(u, along) * along);
     axes.push_back({u, cross(along, u)});

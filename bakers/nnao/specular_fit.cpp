@@ -18,7 +18,7 @@ namespace {
 
 constexpr int inputs = SpecularNumbers::inputs, units = SpecularNumbers::units;
 
-// The parameters of the fit, in the order of SpecularNumbers for Adam.
+// The number of parameters of the fit. Adam sees them as an array in the order of SpecularNumbers.
 constexpr std::size_t number_count = sizeof(SpecularNumbers) / sizeof(float);
 static_assert(number_count == (inputs + 2) * units + 1);
 
@@ -36,15 +36,15 @@ SpecularNumbers numbers_of(std::span<const float> parameters) {
   return numbers;
 }
 
-// Adds the gradient of one value's squared error for each parameter, and returns the squared error. The
-// gradient passes through the clamp, so that values outside it come back.
+// Adds the gradient of one value's squared error with respect to each parameter. Returns the squared error.
+// The gradient ignores the clamp, so that values outside the range move back.
 double add_gradient(std::span<const float> parameters, const LitPixel& pixel, float roughness, float visible,
                     float weight, std::span<float> gradient) {
   const auto x = nook::nnao::specular_inputs(pixel, roughness);
   const SpecularNumbers numbers = numbers_of(parameters);
   const float error = nook::nnao::specular_occlusion(numbers, pixel, roughness) - visible;
   const float rough = roughness * roughness * roughness * roughness;
-  // The derivative of the occlusion for `hidden`.
+  // The derivative of the squared error with respect to `hidden`.
   const float g_hidden = -2 * weight * error * x[0] * (1 - rough);
   for (int u = 0; u < units; ++u) {
     float sum = numbers.bias[std::size_t(u)];
@@ -92,7 +92,7 @@ Fit start_fit(Random& random) {
   return fit;
 }
 
-// Returns the error of the batch before the step.
+// Takes one step. Returns the error of the batch before the step.
 double step_fit(Fit& fit, const std::vector<SpecularSample>& samples, Random& random, float step_rate) {
   std::vector<float> gradient(number_count);
   double error = 0;
@@ -107,8 +107,8 @@ double step_fit(Fit& fit, const std::vector<SpecularSample>& samples, Random& ra
   return error;
 }
 
-// A unit whose sums are below 0 everywhere learns nothing, so fits differ by their initial values. Returns
-// the best of several after a part of the steps.
+// Starts several fits with different initial values, and returns the best one after a part of the steps. The
+// initial values matter, because a unit whose sum is negative for every sample learns nothing.
 Fit best_fit(const std::vector<SpecularSample>& samples, const SpecularFitSettings& settings) {
   constexpr std::uint32_t starts = 16;
   const std::uint32_t length = settings.steps / starts + 1;

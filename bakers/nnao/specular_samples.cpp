@@ -35,7 +35,7 @@ Surface surface_at(const RayScene& rays, const TracedView& view, std::uint32_t x
           depth};
 }
 
-// Returns pixels with a surface. A view of mostly sky has fewer.
+// Returns random pixels that show a surface. A view that shows mostly sky gets fewer.
 std::vector<Surface> any_surfaces(const RayScene& rays, const TracedView& view, std::uint32_t count,
                                   Random& random) {
   std::vector<Surface> chosen;
@@ -46,21 +46,22 @@ std::vector<Surface> any_surfaces(const RayScene& rays, const TracedView& view, 
   return chosen;
 }
 
-// Returns a radius in metres. It spans 12 to 110 pixels at the median depth of the chosen pixels.
+// Returns a random radius in metres. At the median depth of the chosen pixels, it covers 12 to 110 pixels.
 float any_radius(const TracedView& view, std::vector<Surface> surfaces, Random& random) {
   const auto middle = surfaces.begin() + std::ptrdiff_t(surfaces.size() / 2);
   std::ranges::nth_element(surfaces, middle, {}, &Surface::depth);
   return random.log_between(12, 110) / std::abs(nook::nnao::pixel_scale(view.camera.rays, middle->depth).y);
 }
 
-// AO, bent normal and packed edges of a pixel of the pass.
+// What the pass stores for a pixel: AO, bent normal and packed edges.
 struct ScreenPixel {
   float ao = 1;
   Vec3 bent;
   std::uint8_t edges = 0;
 };
 
-// What the pass computes for any pixel before its filter; open beyond the border and without a surface.
+// Computes what the pass computes for a pixel before its filter. Pixels beyond the border and pixels without
+// a surface are unoccluded.
 class UnfilteredPass {
  public:
   UnfilteredPass(const nook::nnao::Network& network, const RayScene& rays, const TracedView& traced,
@@ -76,7 +77,7 @@ class UnfilteredPass {
   ScreenPixel at(int column, int row) const {
     const nook::nnao::View view = traced_.view();
     const std::uint32_t x = std::uint32_t(column), y = std::uint32_t(row);
-    // Beyond the border x and y wrap to large numbers.
+    // Coordinates left of or above the screen wrap to large values.
     if (x >= view.width || y >= view.height || !view.has_surface(x, y)) return {};
     const Vec3 normal = view_direction(traced_.camera, surface_at(rays_, traced_, x, y).normal);
     const nook::nnao::Openness open =
@@ -91,13 +92,13 @@ class UnfilteredPass {
   const nook::nnao::Network& network_;
   const RayScene& rays_;
   const TracedView& traced_;
-  nook::nnao::Sampling sampling_;  // with a radius of half the screen at most
+  nook::nnao::Sampling sampling_;  // the radius is at most half the screen
   float edge_tolerance_;
 };
 
 using PixelLine = std::array<ScreenPixel, 5>;
 
-// Filters the middle one of five pixels along an axis; its edges stay.
+// Filters the middle one of five pixels along an axis. Does not change its edges.
 ScreenPixel filtered_line(const PixelLine& pixels, nook::nnao::FilterAxis axis, std::uint32_t taps) {
   nook::nnao::FilterLine line;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -118,7 +119,7 @@ ScreenPixel filtered_line(const PixelLine& pixels, nook::nnao::FilterAxis axis, 
   return sum;
 }
 
-// Returns AO and bent normal of a pixel after the pass's filter.
+// Returns the AO and the bent normal of a pixel after the pass's filter.
 LitPixel filtered_pixel(const UnfilteredPass& pass, const TracedView& traced, const Surface& surface) {
   PixelLine column;
   for (int up = -2; up <= 2; ++up) {

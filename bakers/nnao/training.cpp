@@ -14,7 +14,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// Returns all points once, in an order that depends on the epoch.
+// Returns the indices of all points in a random order, which depends on the seed of the epoch.
 std::vector<std::uint32_t> shuffled(std::size_t points, std::uint64_t seed) {
   std::vector<std::uint32_t> order(points);
   std::iota(order.begin(), order.end(), 0u);
@@ -27,7 +27,7 @@ float rate_at(float rate, double share_done) {
   return rate * float(0.5 + 0.5 * std::cos(std::numbers::pi * share_done));
 }
 
-// The validation error during training uses about this many points.
+// The number of points for the validation error during training (approximate).
 constexpr std::size_t live_points = 8000;
 
 }  // namespace
@@ -69,7 +69,7 @@ Network network_of(const TrainingState& state, const Dataset& data, const Traini
 
 namespace {
 
-// A training in progress. Batches depend only on the epoch and their number, not on the state.
+// A training run in progress. A batch depends only on the epoch and the batch index, not on the state.
 struct Trainer {
   const Dataset& data;
   const TrainingSettings& settings;
@@ -79,7 +79,7 @@ struct Trainer {
 
   std::uint64_t epoch_seed(std::uint32_t epoch) const { return mix_bits(settings.seed + mix_bits(epoch)); }
 
-  // Returns the loss of the batch before the step.
+  // Takes one step. Returns the loss of the batch before the step.
   double step(TrainingState& state, std::uint32_t epoch, std::span<const std::uint32_t> order,
               std::size_t batch, float rate) {
     const std::span points = order.subspan(batch * settings.batch, settings.batch);
@@ -93,8 +93,8 @@ struct Trainer {
   }
 };
 
-// A network of few units depends on its initial values, because some starts leave units without effect. Each
-// round trains the remaining starts on the same batches and keeps the best quarter.
+// A small network depends on its initial values, because some of them leave units without effect. So we train
+// several starts. Each round trains the remaining starts on the same batches, and keeps the best quarter.
 constexpr std::size_t first_starts = 16, last_starts = 4;
 
 std::size_t steps_of_starts(std::size_t length) {
@@ -104,7 +104,8 @@ std::size_t steps_of_starts(std::size_t length) {
   return steps;
 }
 
-// length: the number of steps that each start takes in the first round. step_done is called after each step.
+// `length` is the number of steps that each start takes in the first round. step_done is called after each
+// step.
 TrainingState best_start(Trainer& trainer, std::size_t length, std::size_t batches,
                          const std::function<void()>& step_done) {
   const std::vector<std::uint32_t> order = shuffled(trainer.data.training.size(), trainer.epoch_seed(0));
@@ -157,7 +158,7 @@ Network train(const Dataset& data, const TrainingSettings& asked, TrainingState&
     });
   for (std::uint32_t epoch = state.epochs_done; epoch < settings.epochs; ++epoch) {
     now.epoch = epoch;
-    // An interruption inside the epoch returns to this state.
+    // If the epoch is interrupted, training returns to this state.
     const TrainingState before = state;
     const std::vector<std::uint32_t> order = shuffled(data.training.size(), trainer.epoch_seed(epoch));
     for (std::size_t b = 0; b < batches; ++b) {
@@ -185,12 +186,12 @@ std::uint64_t fingerprint(std::string_view recipe) {
   return hash64(std::as_bytes(std::span(recipe)));
 }
 
-// Far above any training, because each step takes time.
+// Far more steps than any training could take.
 constexpr std::uint64_t max_steps = std::uint64_t{1} << 48;
 
-// Returns whether a training can have left these numbers, so that the next step is finite. Adam's decay rates
-// make the square of the mean gradient at most 53 times the mean squared gradient (by Cauchy and Schwarz);
-// squares of gradients below 1e-18 vanish.
+// Returns true if training can produce these values. Then the next step is finite. With Adam's decay rates,
+// the square of the mean gradient is at most 53 times the mean squared gradient (Cauchy-Schwarz inequality).
+// Squares of gradients below 1e-18 underflow to 0.
 bool is_reachable(float parameter, float mean, float square) {
   return std::abs(parameter) <= nook::nnao::max_parameter && std::isfinite(square) && square >= 0 &&
          std::abs(mean) <= 8 * std::sqrt(square) + 1e-18f;

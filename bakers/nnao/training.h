@@ -1,6 +1,6 @@
-// Trains the screen-space networks: Adam on minibatches of the data set, with a rate that falls to 0 along a
-// half cosine. The same seed gives the same bits on any number of threads, also if the training is stopped
-// and resumed.
+// Trains the screen-space networks with Adam on minibatches of the data set. The learning rate falls to 0
+// along a half cosine. The same seed gives the same bits on any number of threads, even if you stop and
+// resume the training.
 #pragma once
 
 #include <cstddef>
@@ -22,28 +22,30 @@ using nook::nnao::NetworkForm;
 struct TrainingSettings {
   NetworkForm form = NetworkForm::horizon;
   std::uint32_t epochs = 0;  // 0: the form's default
-  std::uint32_t batch = 0;   // samples in each step, a multiple of 16; 0: the form's default
-  float rate = 0;            // initial rate; 0: the form's default
+  std::uint32_t batch = 0;   // samples per step, a multiple of 16; 0: the form's default
+  float rate = 0;            // initial learning rate; 0: the form's default
   std::uint64_t seed = 1;
 
-  // Horizon form. A pass blurs, so that the visible value is the mean over the noise of neighbouring pixels.
-  // The loss is (1 - w) (bias of the mean)^2 + w (error of one pixel)^2. The first square is the product of
-  // the errors with two independent noise values.
+  // Horizon form. The pass blurs its output, so the visible AO is the mean over the noise values of
+  // neighbouring pixels. The loss is (1 - w) (bias of the mean)^2 + w (error of one pixel)^2, where w is
+  // unblurred_weight. The first square is estimated by the product of the errors for two independent noise
+  // values.
   float unblurred_weight = 0.3f;
-  // The weight of a sample is 1 + dark_weight (1 - AO)^2. With equal weights, dark parts would be too bright.
-  // They are few, and a network that cannot tell them apart from brighter ones gives both the mean.
+  // The weight of a sample is 1 + dark_weight (1 - AO)^2. With equal weights, dark pixels would become too
+  // bright: they are rare, and where the network cannot distinguish them from brighter pixels, it outputs the
+  // mean of both.
   float dark_weight = 8;
-  // Weight of the bent normal's squared error, times 1 - AO.
+  // Weight of the bent normal's squared error. It is multiplied by 1 - AO.
   float bent_weight = 0.1f;
 
-  // Paper form, equation 2: gamma times the mean of |theta|. The sum over 15,500 numbers would exceed any
-  // error of an AO between 0 and 1.
+  // Paper form, equation 2: the loss includes gamma times the mean of |theta|. We use the mean because the
+  // sum over 15,500 parameters would exceed any error of an AO between 0 and 1.
   float gamma = 0.01f;
-  float dropout = 0.5f;  // share of the first layer's inputs that a sample drops
+  float dropout = 0.5f;  // share of the first layer's inputs that each sample drops
 };
 TrainingSettings with_defaults(TrainingSettings settings);
 
-// The state of a training after some epochs, which is sufficient to resume it.
+// The state of a training run after some epochs. It is sufficient to resume the run.
 struct TrainingState {
   explicit TrainingState(std::size_t parameters) : parameter(parameters), adam(parameters) {}
 
@@ -60,26 +62,27 @@ struct TrainingProgress {
 // Return false to stop after the step.
 using OnTraining = std::function<bool(const TrainingProgress&)>;
 
-// Runs after every epoch.
+// Called after every epoch.
 using OnEpoch = std::function<void(const TrainingState&)>;
 
 std::size_t parameter_count(NetworkForm form);
 TrainingState start_training(const Dataset& data, const TrainingSettings& settings);
-// Returns the network of a state, with numbers rounded as in a file.
+// Returns the network of a state. Its parameters are rounded as in a file.
 Network network_of(const TrainingState& state, const Dataset& data, const TrainingSettings& settings);
 
-// Continues from the state to the last epoch. Throws Failure(NOOK_ERROR_CANCELLED) if progress returned
-// false. The state is then the state after the last complete epoch.
+// Continues from `state` to the last epoch. Throws Failure(NOOK_ERROR_CANCELLED) if `progress` returned
+// false. In this case, `state` is the state after the last complete epoch.
 Network train(const Dataset& data, const TrainingSettings& settings, TrainingState& state,
               const OnTraining& progress = {}, const OnEpoch& epoch_done = {});
 
-// A training state as a file, so that an interrupted training continues and ends with the same bits. The file
-// is a .nook container of the kind "NNCP" with two sections: HEAD has u64 fingerprint, u32 finished epochs,
-// u64 steps of Adam, and NUMB has value, mean gradient and mean squared gradient of each parameter.
+// Saves a training state, so that an interrupted training can continue and end with the same bits. The file
+// is a .nook container of the kind "NNCP" with two sections. HEAD stores u64 fingerprint, u32 finished epochs
+// and u64 steps of Adam. NUMB stores the value, mean gradient and mean squared gradient of each parameter.
 
 inline constexpr ContainerKind checkpoint_kind{four_letters("NNCP"), "training checkpoint", 1, 1};
 
-// recipe contains everything that the result depends on. A checkpoint fits only its own recipe.
+// `recipe` must contain everything that the result depends on. A checkpoint can only be read with the same
+// recipe.
 std::vector<std::byte> write_checkpoint(const TrainingState& state, std::string_view recipe);
 
 // Throws Failure(NOOK_ERROR_BAD_FILE), also if the recipe or the number of parameters differs.

@@ -38,7 +38,8 @@ double degrees_between(Vec3 a, Vec3 b) {
   return std::acos(std::clamp(double(dot(a, b)), -1.0, 1.0)) * 180 / std::numbers::pi;
 }
 
-// Returns the middle value, the upper of two; 0 for none.
+// Returns the middle value. For an even count, returns the upper of the two middle values. Returns 0 if there
+// are no values.
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
@@ -46,10 +47,11 @@ double median(std::vector<double> values) {
   return *middle;
 }
 
-// The outputs of one point: with the point's own noise values, and the mean over all noise values.
+// The network's output at one point: with the noise value of the point's pixel, and the mean over all noise
+// values.
 struct PointOutput {
   double own = 0, mean = 0;  // AO
-  Vec3 bent_normal;          // the mean's
+  Vec3 bent_normal;          // of the mean
 };
 
 PointOutput output_of(const nook::nnao::Network& network, const Dataset& data, const DataPoint& point,
