@@ -14,13 +14,13 @@ namespace nook::bake::tensor {
 
 namespace {
 
-// The loop of Algorithm 1, which CTA shares.
+// The loop of Algorithm 1. CTA and K-CTA both use it.
 
 struct StepResult {
   double error = 0;        // squared norm of A_G - A^
-  std::size_t splits = 0;  // empty clusters that were filled
+  std::size_t splits = 0;  // number of empty clusters that were filled
 };
-// Changes a fit by one iteration, which is both stages. objective is from the iteration before.
+// Runs one iteration: both stages. `objective` is the result of the previous iteration.
 using Step =
     std::function<StepResult(WorkingFit& fit, const TensorView& reduced, int iteration, double objective)>;
 
@@ -47,8 +47,8 @@ ClusteredFit as_result(WorkingFit&& fit, Reduction&& reduction, const TensorView
   return result;
 }
 
-// Checks the input, reduces global modes and fits the seeds. Then it steps until the error hardly falls. If a
-// step makes the error rise, the step is undone and ends the fit.
+// Checks the input, reduces global modes and fits the initial clusters. Then repeats `step` until the error
+// hardly falls. If a step raises the error, it is undone and the fit ends.
 ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress,
                      const Step& step) {
   check_tensor(a);
@@ -79,15 +79,15 @@ ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, con
   return result;
 }
 
-// Returns the projected square norm of each sub-tensor in cluster c, the objective of (6).
+// Returns the squared norm of each sub-tensor after projection on the cluster: the objective of (6).
 Eigen::VectorXd projected_norms(const TensorView& reduced, const WorkingCluster& cluster, std::size_t mode) {
   const Tensor projected = project(reduced, cluster.parts.basis);
   const Matrix v = unfold(dual_basis(cluster.parts.core, mode).v, mode);
   return (unfold(projected, mode) * v.transpose()).rowwise().squaredNorm().cast<double>();
 }
 
-// Returns the sub-tensors of mode 1 that try each cluster: its members, and those to which its mean is one of
-// the nearest.
+// Returns, for each cluster, the sub-tensors that try it: its members, and all sub-tensors for which its mean
+// is one of the nearest.
 std::vector<std::vector<std::size_t>> tries(const WorkingFit& fit, const TensorView& reduced,
                                             std::size_t nearest) {
   const auto count = Eigen::Index(fit.membership.size()), clusters = Eigen::Index(fit.clusters.size());
@@ -126,7 +126,7 @@ std::vector<std::vector<std::size_t>> tries(const WorkingFit& fit, const TensorV
   return lists;
 }
 
-// Moves each sub-tensor to the cluster that keeps most of its norm, and fills empty clusters. Returns the
+// Moves each sub-tensor to the cluster that preserves most of its norm, and fills empty clusters. Returns the
 // number of filled clusters.
 std::size_t classify(WorkingFit& fit, const TensorView& reduced, std::size_t nearest) {
   const std::size_t sub_tensors_count = fit.membership.size();
@@ -155,12 +155,13 @@ std::size_t classify(WorkingFit& fit, const TensorView& reduced, std::size_t nea
     cluster.fitted = false;
   }
   list_members(fit);
-  for (WorkingCluster& cluster : fit.clusters) cluster.mixing = Matrix();  // rows of the previous members
+  for (WorkingCluster& cluster : fit.clusters)
+    cluster.mixing = Matrix();  // the rows belong to the previous members
   return filled;
 }
 
-// Fits each cluster's N-SVD from its bases. The sweep begins with them and gives the mixing rows of new
-// members. Returns the squared error.
+// Fits each cluster by an N-SVD that starts from its present bases. The first step of the sweep computes the
+// mixing rows, also for new members. Returns the squared error.
 double update(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
               const OnClustered& progress, int iteration, double objective) {
   double error = 0;

@@ -11,7 +11,7 @@
 namespace nook::bake::tensor {
 namespace {
 
-// Lists the entries of the membership by cluster.
+// Returns, for each cluster, its entries in `membership`.
 std::vector<std::vector<std::size_t>> entries_of(const std::vector<std::uint32_t>& membership,
                                                  std::size_t clusters) {
   std::vector<std::vector<std::size_t>> entries(clusters);
@@ -70,8 +70,8 @@ std::vector<double> sub_tensor_norms(const TensorView& a, std::size_t mode) {
   return norms;
 }
 
-// Returns the clusters of each sub-tensor. The old ones stay if a search of the same length found none
-// better.
+// Returns the clusters of each sub-tensor. A sub-tensor keeps its old clusters if the search found equally
+// many, but none better.
 std::vector<SubTensorMix> search_all(const AtomGram& atoms, const MatrixXd& products,
                                      const WorkingFit& before, const ClusteredSettings& settings) {
   std::vector<SubTensorMix> mixes(std::size_t(products.rows()));
@@ -86,8 +86,8 @@ std::vector<SubTensorMix> search_all(const AtomGram& atoms, const MatrixXd& prod
   return mixes;
 }
 
-// Handles sub-tensors that moved to an empty cluster: projects what they keep again. The empty cluster has no
-// atoms yet and gets weight 0 until the update stage.
+// Handles sub-tensors that moved to an empty cluster. Projects them again on their other clusters. The empty
+// cluster has no atoms yet, so its weight is 0 until the update stage.
 void reweigh(std::vector<SubTensorMix>& mixes, const std::vector<std::size_t>& changed, const WorkingFit& fit,
              const AtomGram& atoms, const MatrixXd& products) {
   const Index rank = Index(atoms.rank);
@@ -112,10 +112,10 @@ void reweigh(std::vector<SubTensorMix>& mixes, const std::vector<std::size_t>& c
   }
 }
 
-// Post-processing, 4.2.3, with U_{m,c} relative to V_{m,c}: U = P S Q^T. The mixing rows become P with
-// orthonormal columns, and the core becomes S Q^T V.
+// Post-processing (section 4.2.3), with U_{m,c} in coordinates of V_{m,c}: U = P S Q^T. The mixing rows
+// become P, which has orthonormal columns. The core becomes S Q^T V.
 void orthonormalise(WorkingCluster& cluster, const MatrixXd& weights, const Tensor& v, std::size_t mode) {
-  if (weights.rows() == 0) {  // a cluster that stays empty explains nothing
+  if (weights.rows() == 0) {  // the cluster stays empty
     cluster.mixing = Matrix(0, weights.cols());
     cluster.parts.core = Tensor(v.dimensions);
     return;
@@ -129,7 +129,7 @@ void orthonormalise(WorkingCluster& cluster, const MatrixXd& weights, const Tens
   cluster.parts.core = mode_product(v, mode, w.cast<float>());
 }
 
-// Clusters that were filled start anew. Returns their number.
+// Marks filled clusters as not fitted, so that their fit starts again. Returns their number.
 std::size_t mark_filled(WorkingFit& fit, const std::vector<std::size_t>& changed) {
   std::size_t splits = 0;
   for (std::size_t e : changed) {
@@ -152,7 +152,7 @@ MatrixXd rows_of(const WorkingCluster& cluster, std::uint32_t c, const std::vect
   return rows;
 }
 
-// Returns all weights: I_m x (C R_m).
+// Returns the weights of all sub-tensors: I_m x (C R_m).
 Matrix all_rows(const std::vector<SubTensorMix>& mixes, std::size_t clusters, Index rank) {
   Matrix weights = Matrix::Zero(Index(mixes.size()), Index(clusters) * rank);
   for (std::size_t i = 0; i < mixes.size(); ++i)
@@ -162,7 +162,7 @@ Matrix all_rows(const std::vector<SubTensorMix>& mixes, std::size_t clusters, In
   return weights;
 }
 
-// residual = A - weights x atoms, weights of I_m x (C R_m).
+// Sets `residual` to A - weights x atoms. `weights` is I_m x (C R_m).
 void subtract(const TensorView& a, const Matrix& weights, const Tensor& atoms, std::size_t mode,
               Tensor& residual) {
   const Tensor mixed = mode_product(atoms, mode, weights);
@@ -235,7 +235,7 @@ void update_stage(WorkingFit& fit, Tensor& residual, const ClusteredSettings& se
     WorkingCluster& cluster = fit.clusters[c];
     report(progress, iteration, settings, c, objective);
     if (cluster.members.empty()) continue;
-    // R'_c: the residual of all clusters plus this cluster's own part, for its members only.
+    // R'_c: the residual of all clusters plus this cluster's own part, only for its members.
     Tensor shrunk = sub_tensors(residual, fit.mode, cluster.members);
     add(shrunk, expand_members(cluster, fit.mode), 1);
     fit_members(cluster, shrunk, settings);

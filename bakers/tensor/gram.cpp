@@ -13,13 +13,13 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Rows = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
 
-// Columns of an unfolding that are summed in floats. The error of such a sum is about 1e-7 times the root of
-// their number, which is below the rounding of the data.
+// The number of columns of an unfolding that are summed in floats. The error of such a sum is about 1e-7
+// times the root of this number, which is below the rounding error of the data.
 constexpr std::size_t float_columns = 512;
-// Parts of the sum. Each is a task with its own sum.
+// The maximum number of parts of a sum. Each part is a task with its own sum.
 constexpr std::size_t most_parts = 32;
 
-// Holds the unfolding of mode n in pieces: matrices of I_n x columns, one after another.
+// Accesses the unfolding of mode n in pieces: matrices of I_n x columns, one after another.
 struct Pieces {
   explicit Pieces(const ModeLayout& mode_layout) : layout(mode_layout) {
     if (layout.inner == 1) {
@@ -30,7 +30,7 @@ struct Pieces {
       count = layout.outer * per_outer;
     }
   }
-  // Calls body with piece p of data whose mode n has `size` entries.
+  // Calls `body` with piece p of `data`. `size` is the size of mode n in `data`.
   template <class Body>
   void with(const float* data, std::size_t size, std::size_t p, const Body& body) const {
     if (layout.inner == 1) {
@@ -49,7 +49,8 @@ struct Pieces {
   std::size_t per_outer = 0, count = 0;
 };
 
-// Sums add(piece, sum) over all pieces, in parts that are the same for any number of threads.
+// Calls add(piece, sum) for all pieces, and returns the sum. The division into parts does not depend on the
+// number of threads.
 template <class Add>
 MatrixXd sum_over(const Pieces& pieces, std::size_t rows, std::size_t columns, const Add& add) {
   const std::size_t part = (pieces.count + most_parts - 1) / most_parts;
@@ -129,7 +130,8 @@ std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<
                   share.size(), multiple, a.order());
   std::vector<std::size_t> ranks(a.order());
   for (std::size_t n = 0; n < a.order(); ++n) {
-    // The loss at rank r is the sum of all eigenvalues except the r largest. They are in ascending order.
+    // The loss at rank r is the sum of all eigenvalues except the r largest. Eigenvalues are in ascending
+    // order.
     const Eigen::VectorXd energy = symmetric_eigenvalues(gram(a, n)).cwiseMax(0.0);
     const double allowed = share[n] * energy.sum();
     double lost = 0;

@@ -1,4 +1,4 @@
-// Inner products of sub-tensors, and what follows from their eigenvalues: principal components and ranks.
+// Inner products of sub-tensors. Their eigenvalues give principal components and ranks.
 #pragma once
 
 #include <cstddef>
@@ -7,15 +7,15 @@
 
 namespace nook::bake::tensor {
 
-// Entry (i, j) is <A_<n_i>, B_<n_j>>, or uf_n(A) uf_n(B)^T. A and B may differ in the size of mode n.
-// Products are in floats; sums are in floats within blocks and in doubles over blocks.
+// Returns uf_n(A) uf_n(B)^T. Entry (i, j) is the inner product <A_<n_i>, B_<n_j>>. A and B may differ in the
+// size of mode n. Products and sums within a block are in floats. Sums over blocks are in doubles.
 Eigen::MatrixXd cross_gram(const TensorView& a, const TensorView& b, std::size_t mode);
 
-// uf_n(A) uf_n(A)^T.
+// Returns uf_n(A) uf_n(A)^T.
 Eigen::MatrixXd gram(const TensorView& a, std::size_t mode);
 
-// Returns the eigenvectors of the `count` greatest eigenvalues, the greatest first. Their greatest entry is
-// positive, which fixes their signs.
+// Returns the eigenvectors of the `count` largest eigenvalues, the largest first. To fix the signs, the entry
+// with the largest magnitude in each eigenvector is positive.
 Matrix leading_eigenvectors(const Eigen::MatrixXd& symmetric, std::size_t count);
 
 struct PrincipalComponents {
@@ -23,17 +23,17 @@ struct PrincipalComponents {
   Matrix basis;  // orthonormal columns, largest variance first
 };
 
-// samples: one per row, at least one. Returns `count` components, or as many as the rows have numbers if that
-// is fewer.
+// `samples` has one sample per row, and at least one row. Returns `count` components, or one per column if
+// there are fewer columns.
 PrincipalComponents principal_components(const Matrix& samples, std::size_t count);
 
-// Returns the coefficients of the samples, one per row. Distances between rows approximate the distances of
-// the samples, up to what the components leave out.
+// Returns the coefficients of the samples, one sample per row. Distances between rows approximate distances
+// between samples. The error is the part that the components leave out.
 Matrix project(const Matrix& samples, const PrincipalComponents& components);
 
-// Returns for each mode alone, with the others complete, the smallest rank with || A - A^ ||^2 <= share[n] ||
-// A ||^2. Ranks are multiples of `multiple`, or I_n. This is the choice of ranks in section 6 of the paper.
-// Shares below 1e-6 are below the rounding of floats.
+// Returns a rank for each mode, as in section 6 of the paper: the smallest one with || A - A^ ||^2 <=
+// share[n] || A ||^2 when only this mode is reduced. Ranks are rounded up to multiples of `multiple`, at most
+// I_n. Shares below 1e-6 have no meaning, because they are below the rounding error of floats.
 std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<double>& share,
                                          std::size_t multiple = 4);
 

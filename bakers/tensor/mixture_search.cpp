@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Directions below this share of the greatest eigenvalue are linear dependence between clusters, because
-// products are summed in floats.
+// Share of the largest eigenvalue. Because products are summed in floats, we treat clusters as linearly
+// dependent along directions with a smaller eigenvalue.
 constexpr double dependence = 1e-6;
 
 VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products) {
@@ -31,7 +31,7 @@ VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products)
 
 VectorXd solve(const MatrixXd& gram, const VectorXd& products) {
   const Eigen::LLT<MatrixXd> factor(gram);
-  // Atoms have norm 1. A small pivot means that one depends on those before it.
+  // Atoms have norm 1. A small pivot means that an atom depends linearly on the previous atoms.
   if (factor.info() == Eigen::Success &&
       factor.matrixLLT().diagonal().array().square().minCoeff() > 10 * dependence)
     return factor.solve(products);
@@ -54,8 +54,8 @@ SubTensorMix project_on(const AtomGram& atoms, const VectorXd& products,
   }
   SubTensorMix mix;
   mix.weights = solve(gram, chosen);
-  // The squared norm of A decreases by this to the squared norm of A - sum w O. It equals w . p if w solves
-  // the normal equations exactly.
+  // The squared norm of A minus the squared norm of A - sum w O. It equals w . p if w solves the normal
+  // equations exactly.
   mix.explained = 2 * mix.weights.dot(chosen) - mix.weights.dot(gram * mix.weights);
   mix.clusters = std::move(clusters);
   return mix;
@@ -99,7 +99,8 @@ SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensor
       std::vector<std::uint32_t> clusters = mix.clusters;
       clusters[k] = c;
       SubTensorMix other = project_on(atoms, products, std::move(clusters));
-      // The gain must exceed rounding, or two equal mixes would be exchanged for ever.
+      // The gain must exceed the rounding error. Otherwise, two equally good mixes would replace each other
+      // forever.
       if (other.explained > best.explained * (1 + 1e-9)) best = std::move(other);
     }
     idle = best.clusters == mix.clusters ? idle + 1 : 0;
@@ -109,7 +110,7 @@ SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensor
 }
 
 SubTensorMix search_exhaustive(const AtomGram& atoms, const VectorXd& products, std::size_t mixture) {
-  // Tries all sets in lexical order; of equals, the first wins.
+  // Tries all sets in lexicographic order. If several are equally good, the first one wins.
   std::vector<std::uint32_t> set(mixture);
   std::iota(set.begin(), set.end(), 0u);
   SubTensorMix best = project_on(atoms, products, set);

@@ -1,13 +1,13 @@
-// The clustering stage for one sub-tensor chooses clusters and their coefficients.
+// The clustering stage for one sub-tensor: chooses clusters and their coefficients.
 //
-// Everything is in coordinates of the dual bases V_{m,c} of equation (7), whose rows are orthonormal. The
-// atoms of cluster c are O_c = fold(V_{m,c}) x_{n != m} U_{n,c}, and a sub-tensor is sum_k w_k O_{c_k}. So
-// the search reads only inner products. With p_c = <A_<m_i>, O_c>, (9), (11), (13), (15) become
+// All coordinates refer to the dual bases V_{m,c} of equation (7). Their rows are orthonormal. The atoms of
+// cluster c are O_c = fold(V_{m,c}) x_{n != m} U_{n,c}, and a sub-tensor is sum_k w_k O_{c_k}. So the search
+// reads only inner products. With p_c = <A_<m_i>, O_c>, (9), (11), (13), (15) become
 //   (9)   max || p_c ||^2
 //   (11)  w = p_c
 //   (13)  max || p_c - sum_j w_j <O_{c_j}, O_c> ||^2  (the proof, (34), has V of the new cluster c_{i_k} in
 //         the second term, where (13) prints V of c_{i_j})
-//   (15)  w = <O, O>^+ p over the clusters chosen.
+//   (15)  w = <O, O>^+ p over the chosen clusters.
 #pragma once
 
 #include <cstdint>
@@ -24,20 +24,21 @@ struct AtomGram {
 
 struct SubTensorMix {
   std::vector<std::uint32_t> clusters;
-  Eigen::VectorXd weights;  // by cluster, R_m each
-  double explained = 0;     // how much they lower || A_<m_i> ||^2
+  Eigen::VectorXd weights;  // R_m per cluster
+  double explained = 0;     // by how much the mix lowers || A_<m_i> ||^2
 };
 
-// Projects a sub-tensor optimally on clusters (15), from its inner products with all atoms (C R_m).
+// Projects a sub-tensor optimally on the given clusters (15). `products` are its inner products with all
+// atoms (C R_m).
 SubTensorMix project_on(const AtomGram& atoms, const Eigen::VectorXd& products,
                         std::vector<std::uint32_t> clusters);
 
-// Returns the next cluster by (13) that is not in the mix yet.
+// Returns the best cluster by (13) that is not yet in the mix.
 std::uint32_t next_cluster(const AtomGram& atoms, const Eigen::VectorXd& products, const SubTensorMix& mix);
 
 SubTensorMix search_greedy(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
-// Exchanges single clusters of the mix for others, the best exchange of each in turn, until none lowers the
-// error.
+// Replaces single clusters of the mix. Takes the clusters of the mix in turn, and replaces each by the best
+// other cluster, until no replacement lowers the error.
 SubTensorMix exchange(const AtomGram& atoms, const Eigen::VectorXd& products, SubTensorMix mix);
 
 SubTensorMix search_exhaustive(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
@@ -45,21 +46,23 @@ SubTensorMix search_exhaustive(const AtomGram& atoms, const Eigen::VectorXd& pro
 SubTensorMix search(Pursuit pursuit, const AtomGram& atoms, const Eigen::VectorXd& products,
                     std::size_t mixture);
 
-// Relative to the largest eigenvalue of uf(Z) uf(Z)^T; smaller eigenvalues are rounding of a core in floats.
+// Share of the largest eigenvalue of uf(Z) uf(Z)^T. Smaller eigenvalues are rounding errors of a core in
+// floats.
 inline constexpr double rounded_eigenvalue = 1e-12;
 
-// V_{m,c} of equation (7), folded like the core, and the inverse transformation (uf(Z) uf(Z)^T)^(-1/2). If
-// the core lacks rank, it is the root of the pseudo-inverse, and rows of V span fewer dimensions.
+// V_{m,c} of equation (7), folded like the core, and the transformation (uf(Z) uf(Z)^T)^(-1/2). If the core
+// does not have full rank, the transformation is the root of the pseudo-inverse, and the rows of V span fewer
+// dimensions.
 struct DualBasis {
   Tensor v;                      // R_1 x ... x R_N
   Eigen::MatrixXd inverse_root;  // R_m x R_m
 };
-// V leaves out directions whose eigenvalue is below `lowest` of the largest.
+// V omits directions whose eigenvalue is less than `lowest` times the largest eigenvalue.
 DualBasis dual_basis(const Tensor& core, std::size_t mode, double lowest = rounded_eigenvalue);
 
-// Returns O_c = V_{m,c} x_{n != m} U_{n,c} of all clusters, joined along mode m, whose size is C R_m. Global
-// modes stay reduced. Expanding the few atoms of a cluster costs less than projecting every sub-tensor on its
-// bases, as in (10) and (14), and gives the same inner products.
+// Returns O_c = V_{m,c} x_{n != m} U_{n,c} of all clusters, joined along mode m, which then has size C R_m.
+// Global modes stay reduced. The paper projects every sub-tensor on the bases of each cluster instead, (10)
+// and (14). Expanding the few atoms of a cluster costs less and gives the same inner products.
 Tensor join_atoms(const std::vector<ClusteredFit::Cluster>& clusters, const std::vector<DualBasis>& dual,
                   const Dimensions& reduced, std::size_t mode);
 

@@ -26,7 +26,7 @@ Tensor reconstruct(const Nsvd& fit) {
 
 namespace {
 
-// Returns the modes that have a basis, cyclically from `first` on.
+// Returns the modes that have a basis, in cyclic order from `first`.
 std::vector<std::size_t> fitted_modes(const Dimensions& dimensions, const Alternation& settings) {
   std::vector<std::size_t> modes;
   for (std::size_t k = 0; k < dimensions.size(); ++k) {
@@ -73,14 +73,15 @@ Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, c
     Tensor core;
     for (std::size_t n : modes) {
       report(progress, {sweep + 1, settings.sweeps, n, best.objective.empty() ? 0 : best.objective.back()});
-      // All other modes are projected, so that the best subspace of this mode is optimal.
+      // All other modes are projected on their bases. The best subspace of this mode is then optimal for
+      // these bases.
       bases[n] = Matrix();
       const Tensor projected = project(a, bases);
       bases[n] = leading_eigenvectors(gram(projected, n), settings.ranks[n]);
       if (n == modes.back()) core = mode_product(projected, n, bases[n].transpose());
     }
     const double error = error_of(core), before = best.objective.empty() ? squared : best.objective.back();
-    // Only rounding can raise the error, when the fit is at the precision of floats.
+    // The error can rise only by rounding, when the fit has reached the precision of floats.
     if (!best.objective.empty() && error >= before) break;
     best.core = std::move(core);
     best.basis = bases;

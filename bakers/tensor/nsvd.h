@@ -10,47 +10,48 @@ namespace nook::bake::tensor {
 
 struct NsvdSettings {
   std::vector<std::size_t> ranks;  // R_n for each mode, 1 to I_n
-  int iterations = 10;             // maximum number of sweeps over all modes, after the start; 0: the
-                                   // truncated HOSVD
-  double tolerance = 1e-4;         // ends when a sweep lowers the squared error by less than this share of it
+  int iterations = 10;             // maximum number of sweeps over all modes; 0: only the truncated HOSVD
+  double tolerance = 1e-4;  // the fit ends when a sweep lowers the squared error by less than this share
 };
 
-// An empty basis is the identity, for a mode that keeps its full rank.
+// An empty basis stands for the identity, for a mode that keeps its full rank.
 struct Nsvd {
   Tensor core;                    // R_1 x ... x R_N
-  std::vector<Matrix> basis;      // per mode: I_n x R_n, columns orthonormal, the most important first
+  std::vector<Matrix> basis;      // per mode: I_n x R_n, orthonormal columns, most important first
   std::vector<double> objective;  // squared norm of A - A^ after the start and each sweep; never rises
 };
 
 struct NsvdProgress {
   int sweep = 0, sweeps = 0;  // sweep 0: the HOSVD
-  std::size_t mode = 0;       // mode whose basis comes next
-  double objective = 0;       // after the last sweep; 0 before
+  std::size_t mode = 0;       // the mode whose basis is computed next
+  double objective = 0;       // after the last sweep; 0 before the first result
 };
-// Return false to stop. The calling thread runs it.
+// Return false to stop. The function is called on the thread that started the fit.
 using OnNsvd = std::function<bool(const NsvdProgress&)>;
 
-// Needs memory for the input, about 1 / I_1 of it for each thread, and the input reduced by all modes but
-// one. Gives the same bits on any number of threads of the caller's TBB arena. Throws INVALID_ARGUMENT for
-// what check_tensor refuses and for ranks that do not fit, CANCELLED if progress returned false.
+// Needs memory for the input, for about 1 / I_1 of the input per thread, and for the input with all modes but
+// one reduced. Runs in the caller's TBB arena, and returns the same bits on any number of threads. Throws
+// INVALID_ARGUMENT if check_tensor fails or the ranks do not fit the tensor, and CANCELLED if `progress`
+// returned false.
 Nsvd fit_nsvd(const TensorView& a, const NsvdSettings& settings, const OnNsvd& progress = {});
 
 Tensor reconstruct(const Nsvd& fit);
 
-// Returns U_n of the truncated higher-order SVD for each mode. It is empty if R_n = I_n or if the mode is
-// kept whole.
+// Returns U_n of the truncated higher-order SVD for each mode. U_n is empty if R_n = I_n, because the mode is
+// not reduced.
 std::vector<Matrix> hosvd_bases(const TensorView& a, const std::vector<std::size_t>& ranks,
                                 const OnNsvd& progress = {});
 
 struct Alternation {
-  std::vector<std::size_t> ranks;  // R_n = I_n keeps a mode whole, with an empty basis
+  std::vector<std::size_t> ranks;  // R_n = I_n: the mode is not reduced, and its basis is empty
   std::size_t first = 0;           // the mode that starts each sweep; its basis may be missing
   int sweeps = 10;
   double tolerance = 1e-4;
 };
 
-// Reduces the squared norm of A - Z x_n U_n in at least one sweep. The result is no worse than the given
-// bases. `squared` is the squared norm of A.
+// Reduces the squared norm of A - Z x_n U_n by alternating least squares, starting at the given bases. Runs
+// at least one sweep if a basis is missing. The result is not worse than the given bases. `squared` is the
+// squared norm of A.
 Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, const Alternation& settings,
                const OnNsvd& progress = {});
 

@@ -13,8 +13,9 @@ namespace {
 
 using Eigen::Index;
 
-// The two cells of a border, each with the cell behind. The factors extrapolate from them to the border, as
-// decoding does. If the cell behind mixes other clusters, the value is constant towards the border.
+// The two cells at a border, each with the cell behind it. The factors extrapolate from these cells to the
+// border, as decoding does. If the cell behind mixes other clusters, its factor is 0, and the value stays
+// constant up to the border.
 struct Border {
   std::array<std::size_t, 4> cell;
   std::array<double, 4> factor;
@@ -52,7 +53,7 @@ class StepSystem {
 
   bool has_steps() const { return !borders_.empty(); }
 
-  // out = (block diagonal of the Gram matrix + penalty times the steps' Gram matrix) weights.
+  // Computes out = (block diagonal of the Gram matrix + penalty * Gram matrix of the steps) * weights.
   void apply(const WideMatrix& weights, WideMatrix& out) const {
     out.setZero(weights.rows(), weights.cols());
     Eigen::VectorXd sum(atoms_.product.rows());
@@ -72,14 +73,14 @@ class StepSystem {
   Index atom(std::size_t cell, std::size_t term) const {
     return Index(cells_.clusters[cell * cells_.count + term]) * rank_;
   }
-  // Adds factor times the inner products of a cell's mix with all atoms.
+  // Adds to `sum` the inner products of a cell's mix with all atoms, times `factor`.
   void add_product(const WideMatrix& weights, std::size_t cell, double factor, Eigen::VectorXd& sum) const {
     if (factor == 0) return;
     for (std::size_t k = 0; k < cells_.count; ++k)
       sum += atoms_.product.middleCols(atom(cell, k), rank_) *
              (factor * weights.row(Index(cell)).segment(Index(k) * rank_, rank_).transpose());
   }
-  // Adds factor times the inner products with the cell's own atoms.
+  // Adds to the cell's row of `out` the entries of `sum` for the cell's own atoms, times `factor`.
   void add_part(const Eigen::VectorXd& sum, std::size_t cell, double factor, WideMatrix& out) const {
     for (std::size_t k = 0; k < cells_.count; ++k)
       out.row(Index(cell)).segment(Index(k) * rank_, rank_) +=
@@ -134,9 +135,10 @@ namespace {
 
 using Eigen::Index;
 
-// Share of the largest eigenvalue of a core. A sub-tensor between the fitted ones has a part along any
-// direction, even where the members of a cluster hardly differ. For an eigenvalue of 1e-12, its coefficient
-// would be a million times larger than the fit's. A file rounds all coefficients of a map by the largest one.
+// Share of the largest eigenvalue of a core. Smaller eigenvalues are ignored. The members of a cluster hardly
+// differ along the directions with small eigenvalues, but a sub-tensor between the fitted ones may have a
+// part along them. For an eigenvalue share of 1e-12, its coefficient would be a million times as large as in
+// the fit. A file quantises all coefficients of a map relative to the largest one.
 constexpr double lowest_eigenvalue = 1e-6;
 
 std::vector<DualBasis> dual_bases(const ClusteredFit& fit) {
@@ -153,7 +155,7 @@ Tensor atoms_of(const ClusteredFit& fit, const std::vector<DualBasis>& dual) {
   return join_atoms(fit.clusters, dual, reduced, fit.mode);
 }
 
-// What resampling reads of a fit.
+// The parts of a fit that resampling reads.
 struct Resampling {
   explicit Resampling(const ClusteredFit& fit)
       : dual(dual_bases(fit)),
@@ -173,7 +175,7 @@ void check_sizes(const AtomGram& atoms, const Matrix& projections, const Matrix&
                   std::size_t(weights.cols()), atoms.clusters, atoms.rank);
 }
 
-// Searches the clusters of each row. Weights are in the coordinates of the orthonormal atoms.
+// Searches the clusters of each row. The resulting weights are in coordinates of the orthonormal atoms.
 MixedCells search_rows(const Resampling& of, const Matrix& projections, const Matrix& weights,
                        Pursuit pursuit) {
   const std::size_t rows = std::size_t(weights.rows()), k = of.count;
@@ -193,7 +195,8 @@ MixedCells search_rows(const Resampling& of, const Matrix& projections, const Ma
   return cells;
 }
 
-// Changes coordinates from V_{m,c} to the core's: U = w (uf(Z) uf(Z)^T)^(-1/2).
+// Converts weights from the coordinates of V_{m,c} to the coordinates of the core: U = w (uf(Z)
+// uf(Z)^T)^(-1/2).
 Mixture as_mixture(const Resampling& of, const MixedCells& cells) {
   const auto rank = Index(of.atoms.rank);
   Mixture mixture;
@@ -217,7 +220,7 @@ Matrix atom_projections(const ClusteredFit& fit, const TensorView& a) {
                   "the tensor is not of the size that was fitted (%zu and %zu entries)", a.size(),
                   volume(fit.dimensions));
   const Tensor atoms = atoms_of(fit, dual_bases(fit));
-  // Without reduction, uses the tensor itself without a copy.
+  // If no mode is reduced, uses the tensor itself, without a copy.
   const auto is_empty = [](const Matrix& u) { return u.size() == 0; };
   if (std::all_of(fit.global_basis.begin(), fit.global_basis.end(), is_empty))
     return cross_gram(a, atoms, fit.mode).cast<float>();

@@ -20,7 +20,8 @@ struct Groups {
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-// The probability to draw the next centre is proportional to the squared distance to the existing ones.
+// The probability that a point becomes the next centre is proportional to its squared distance from the
+// nearest existing centre.
 MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& bits) {
   const auto uniform = [&] { return double(bits() >> 11) * 0x1p-53; };
   MatrixXd centres(clusters, points.cols());
@@ -38,7 +39,7 @@ MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& b
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "too many clusters for these points (got %zu, need at most %zu, the distinct points)",
                     std::size_t(clusters), std::size_t(c + 1));
-    // Points at distance 0 are never drawn again, even if rounding leaves nothing at the end.
+    // Points at distance 0 are never drawn, even if rounding makes `left` reach the end.
     double left = uniform() * sum;
     for (Index i = 0; i < points.rows(); ++i) {
       if (nearest[std::size_t(i)] == 0) continue;
@@ -49,7 +50,8 @@ MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& b
   return centres;
 }
 
-// A group without points takes the point farthest from its centre, from a group with several.
+// Moves one point into each empty group: the point farthest from its centre, taken from a group with several
+// points.
 void fill_empty(const MatrixXd& points, MatrixXd& centres, Groups& now) {
   std::vector<std::size_t> members(std::size_t(centres.rows()));
   for (std::uint32_t g : now.group) ++members[g];
@@ -118,8 +120,8 @@ Matrix sub_tensor_points(const TensorView& a, std::size_t mode) {
   check_tensor(a);
   if (mode >= a.order())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu of a tensor of order %zu", mode + 1, a.order());
-  // uf(A) uf(A)^T = Q L Q^T: rows of Q L^(1/2) have the inner products of the sub-tensors, and so their
-  // distances.
+  // uf(A) uf(A)^T = Q L Q^T. So the rows of Q L^(1/2) have the same inner products as the sub-tensors, and
+  // also the same distances.
   const SymmetricEigen eigen = symmetric_eigen(gram(a, mode));
   const MatrixXd points = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   return points.cast<float>();

@@ -11,8 +11,8 @@
 namespace nook::bake::tensor {
 namespace {
 
-// Sums value(i), i < count, over blocks of a fixed size. A block has eight parallel sums, which the compiler
-// keeps in registers. Blocks are added in order.
+// Returns the sum of value(i) for i < count, computed in blocks of a fixed size. Each block has eight
+// parallel sums, which the compiler keeps in registers. Blocks are added in order.
 template <class Value>
 double block_sum(std::size_t count, const Value& value) {
   constexpr std::size_t block = std::size_t(1) << 18, lanes = 8;
@@ -35,8 +35,9 @@ void need_same_size(const TensorView& a, const TensorView& b) {
                   a.order(), b.order());
 }
 
-// Calls body(row, column, entry in memory) for each entry of the unfolding. In the paper's order of columns,
-// modes after n come before modes ahead of n, and the first is the slowest. So the column is r * outer + o.
+// Calls body(row, column, index in memory) for each entry of the unfolding. In the paper's order of columns,
+// the indices of the modes after n change slowest, then the indices of the modes before n. So the column is r
+// * outer + o.
 template <class Body>
 void for_each_unfolded(const ModeLayout& l, const Body& body) {
   for (std::size_t i = 0; i < l.size; ++i)
@@ -136,7 +137,7 @@ using Eigen::Index;
 using Rows = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
 using RowsOut = Eigen::Map<Matrix, 0, Eigen::OuterStride<>>;
 
-// out = in x_mode U for one tensor, on the calling thread.
+// Computes out = in x_mode U for one tensor, on the calling thread.
 void multiply(const float* in, const ModeLayout& layout, const Matrix& u, float* out) {
   const Index size = Index(layout.size), rows = u.rows(), inner = Index(layout.inner);
   if (inner == 1) {
@@ -149,7 +150,7 @@ void multiply(const float* in, const ModeLayout& layout, const Matrix& u, float*
         u * Eigen::Map<const Matrix>(in + Index(o) * size * inner, size, inner);
 }
 
-// out = in x_0 U: the columns in blocks, in parallel.
+// Computes out = in x_0 U. Blocks of columns run in parallel.
 void multiply_first(const float* in, const ModeLayout& layout, const Matrix& u, float* out) {
   const auto stride = Eigen::OuterStride<>(Index(layout.inner));
   constexpr std::size_t block = 1024;
@@ -171,7 +172,7 @@ double growth(const Matrix& u) {
   return u.size() == 0 ? 1 : double(u.rows()) / double(u.cols());
 }
 
-// Returns the modes from 1 on that have a matrix, the most shrinking first.
+// Returns the modes from 1 that have a matrix. The mode that shrinks most comes first.
 std::vector<std::size_t> inner_order(const std::vector<Matrix>& u) {
   std::vector<std::size_t> order;
   for (std::size_t n = 1; n < u.size(); ++n)
@@ -181,7 +182,7 @@ std::vector<std::size_t> inner_order(const std::vector<Matrix>& u) {
   return order;
 }
 
-// Reduces all modes but the first, in the given order, for each sub-tensor of the first.
+// Multiplies all modes but the first, in the given order, for each sub-tensor of the first mode.
 Tensor inner_products(const TensorView& a, const std::vector<Matrix>& u,
                       const std::vector<std::size_t>& order) {
   Dimensions result = a.dimensions;

@@ -12,7 +12,8 @@ using Dimensions = std::vector<std::size_t>;  // I_1 to I_N; modes are counted f
 
 std::size_t volume(const Dimensions& dimensions);
 
-// A view of entries, for example in a Tensor. Row-major: the last mode's index is fastest.
+// A view of entries, for example of a Tensor. The order is row-major: the index of the last mode changes
+// fastest.
 struct TensorView {
   Dimensions dimensions;
   const float* data = nullptr;
@@ -37,17 +38,17 @@ struct ModeLayout {
 };
 ModeLayout layout_of(const Dimensions& dimensions, std::size_t mode);
 
-// Returns <A, B> of equation (1), or its square norm. Sums in doubles, in an order that depends only on the
-// size.
+// Returns <A, B> of equation (1), or the squared norm <A, A>. Sums are in doubles, in an order that depends
+// only on the size.
 double scalar_product(const TensorView& a, const TensorView& b);
 double squared_norm(const TensorView& a);
 // Returns the squared norm of A - B.
 double squared_distance(const TensorView& a, const TensorView& b);
 
 // Returns uf_n(A), I_n x (I_{n+1} ... I_N I_1 ... I_{n-1}), in the paper's order of columns (De Lathauwer
-// 2000). The index of mode n + 1 is the slowest, and the index of mode n - 1 is the fastest.
+// 2000). Along the columns, the index of mode n + 1 changes slowest, and the index of mode n - 1 fastest.
 Matrix unfold(const TensorView& a, std::size_t mode);
-// The tensor of these dimensions whose unfolding is given.
+// Undoes unfold(): returns the tensor of these dimensions.
 Tensor fold(const Matrix& unfolded, const Dimensions& dimensions, std::size_t mode);
 
 // Returns the sub-tensors A_<m_i> of equation (4) for the given i, joined along mode m in this order.
@@ -59,14 +60,15 @@ void check_tensor(const TensorView& a);
 
 // Mode products, equations (2) and (3).
 
-// A x_n U, where U is J_n x I_n.
+// Returns A x_n U, where U is J_n x I_n.
 Tensor mode_product(const TensorView& a, std::size_t mode, const Matrix& u);
 
-// A x_1 U_1 ... x_N U_N; an empty matrix stands for the identity. Modes that shrink most come first. All but
-// the first are computed slab by slab of the first, so that no intermediate tensor is held whole.
+// Returns A x_1 U_1 ... x_N U_N. An empty matrix stands for the identity. The modes that shrink most are
+// multiplied first. All modes but the first are computed for one slab of the first mode at a time, so that no
+// intermediate tensor is stored as a whole.
 Tensor mode_products(const TensorView& a, const std::vector<Matrix>& u);
 
-// The same with the transposes, A x_1 U_1^T ... x_N U_N^T, which projects on bases.
+// Projects on bases: returns A x_1 U_1^T ... x_N U_N^T.
 Tensor project(const TensorView& a, const std::vector<Matrix>& bases);
 
 }  // namespace nook::bake::tensor

@@ -25,7 +25,7 @@ Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& sett
     return true;
   };
   reduction.global_basis = hosvd_bases(a, ranks, stop);
-  // With the others whole, the best basis of a single mode is the HOSVD's.
+  // If only one mode is reduced, the basis of the HOSVD is already optimal.
   if (reduced_modes > 1)
     reduction.global_basis = alternate(a, squared, reduction.global_basis, {ranks, 0, 10, 1e-4}, stop).basis;
   reduction.held = project(a, reduction.global_basis);

@@ -1,4 +1,5 @@
-// A clustered fit in progress: clusters by their members, on the tensor with reduced global modes.
+// A clustered fit in progress. It works on the tensor with reduced global modes, and lists the members of
+// each cluster.
 #pragma once
 
 #include "bakers/tensor/clustered_fit.h"
@@ -6,23 +7,24 @@
 
 namespace nook::bake::tensor {
 
-// Modes with one basis for all clusters (the paper's 5.2).
+// Global modes: modes with one basis for all clusters (section 5.2 of the paper).
 
 // A_G of equation (23).
 struct Reduction {
-  std::vector<Matrix> global_basis;  // per mode: I_n x R_n; empty: not global, or full rank
-  Tensor held;                       // A_G if a mode was reduced, else empty
+  std::vector<Matrix> global_basis;  // per mode: I_n x R_n; empty if not global or of full rank
+  Tensor held;                       // A_G if a mode was reduced, otherwise empty
   TensorView view;                   // A_G, or the input itself
   double lost = 0;                   // || A ||^2 - || A_G ||^2, which no cluster can explain
 };
-// Global bases lower || A - A x_n U_n U_n^T ||^2, n in G; other modes stay whole.
+// Finds the global bases, which minimise || A - A x_n U_n U_n^T ||^2 over all n in G. Other modes are not
+// reduced.
 Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& settings,
                               const OnClustered& progress);
 
 struct WorkingCluster {
-  std::vector<std::size_t> members;  // rising
-  Matrix mixing;                     // members x R_m: the non-zero rows of U_{m,c}
-  bool fitted = false;               // false: core and bases are not found yet
+  std::vector<std::size_t> members;  // ascending
+  Matrix mixing;                     // members x R_m: the members' rows of U_{m,c}
+  bool fitted = false;               // false: core and bases are not known yet
   ClusteredFit::Cluster parts;
 };
 
@@ -33,17 +35,18 @@ struct WorkingFit {
   std::vector<WorkingCluster> clusters;
 };
 
-// Lists the members of each cluster from the membership. Keeps cores and bases.
+// Sets the members of each cluster from `membership`. Keeps cores and bases.
 void list_members(WorkingFit& fit);
 
-// Fits core, bases and mixing rows of a cluster by an N-SVD of the shrunk tensor, which has only its members.
-// It starts from the present ones (mixing rows may be missing), or from the HOSVD. Returns the squared error.
+// Fits core, bases and mixing rows of a cluster by an N-SVD of `shrunk`, the tensor of only the cluster's
+// members. The N-SVD starts from the present bases and mixing rows (the rows may be missing). If the cluster
+// was not fitted before, it starts from the HOSVD. Returns the squared error.
 double fit_members(WorkingCluster& cluster, const Tensor& shrunk, const ClusteredSettings& settings);
 
-// Z_c x_n U_{n,c}, members only.
+// Returns Z_c x_n U_{n,c}, only for the members.
 Tensor expand_members(const WorkingCluster& cluster, std::size_t mode);
 
-// Fits each seed's cluster by an N-SVD of its members. Returns the squared norm of A_G - A^.
+// Fits each initial cluster by an N-SVD of its members. Returns the squared norm of A_G - A^.
 double fit_seeds(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
                  const OnClustered& progress);
 
