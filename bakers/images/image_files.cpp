@@ -48,9 +48,9 @@ std::vector<fs::path> images_below(const fs::path& folder) {
 
 void check_image_size(const char* what, int width, int height, std::size_t max_texels,
                       std::uintmax_t file_bytes) {
-  // The limit is above what each format packs into a byte. Deflate packs 1032 bytes, which are 8256 texels of
-  // one bit. A block of 64 texels takes a bit or more of a JPEG. An EXR file packs at most 11,000 texels of
-  // one colour.
+  // No format packs more texels into a byte. Deflate packs at most 1032 bytes, which are 8256 one-bit texels.
+  // A JPEG needs at least one bit for a block of 64 texels. An EXR file packs at most 11,000 texels of one
+  // colour.
   constexpr std::uintmax_t max_texels_per_byte = std::uintmax_t{1} << 14;
   if (width < 1 || height < 1 || std::size_t(width) > max_texels / std::size_t(height))
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %d x %d texels (need 1 to %zu); make it smaller", what,
@@ -66,11 +66,11 @@ namespace {
 
 constexpr std::uint32_t exr_magic = 20000630;
 constexpr std::uint32_t is_tiled = 0x200, is_multipart = 0x1000;  // bits of the version field
-// OpenEXR takes memory for up to 256 whole rows when it opens a file.
+// When OpenEXR opens a file, it allocates up to 256 whole rows.
 constexpr std::int64_t max_columns = 1 << 16;
-constexpr std::size_t max_name_length = 255;  // for an attribute and its type, bytes
+constexpr std::size_t max_name_length = 255;  // of an attribute's name and of its type's name, bytes
 
-// Little endian, like all numbers of the format. Returns 0 beyond the end of the file.
+// Reads a little-endian number, like all numbers of the format. Returns 0 beyond the end of the file.
 std::uint32_t read_u32(std::istream& file) {
   unsigned char bytes[4] = {};
   file.read(reinterpret_cast<char*>(bytes), 4);
@@ -79,14 +79,16 @@ std::uint32_t read_u32(std::istream& file) {
               : 0;
 }
 
-// Reads up to a zero byte. Cuts a name that is longer than the format allows; the reader refuses it.
+// Reads a name up to its zero byte. Truncates names that are longer than the format allows; OpenEXR rejects
+// such files.
 std::string read_name(std::istream& file) {
   std::string name;
   for (char c = 0; name.size() <= max_name_length && file.get(c) && c != 0;) name.push_back(c);
   return name;
 }
 
-// Types with a fixed size in bytes. OpenEXR reads their values by this size, whatever the attribute says.
+// Types with a fixed size in bytes. OpenEXR reads this size, and ignores the size that the attribute
+// declares.
 struct FixedType {
   std::string_view name;
   std::uint32_t size;
@@ -101,8 +103,8 @@ constexpr std::array fixed_types{
     FixedType{"v2d", 16},     FixedType{"v2f", 8},         FixedType{"v2i", 8},
     FixedType{"v3d", 24},     FixedType{"v3f", 12},        FixedType{"v3i", 12}};
 
-// Returns the bytes of the value at the file's position, as OpenEXR reads this type. `said` is what the
-// attribute says, which counts for the other types.
+// Returns the number of bytes that OpenEXR reads for a value of this type at the file's position. `said` is
+// the size that the attribute declares. OpenEXR uses it for types that have no fixed size.
 std::uint64_t value_size(std::istream& file, const std::string& type, std::uint32_t said) {
   for (const FixedType& fixed : fixed_types)
     if (type == fixed.name) return fixed.size;
@@ -116,7 +118,7 @@ std::uint64_t value_size(std::istream& file, const std::string& type, std::uint3
   return file ? std::uint64_t(file.tellg() - at) : UINT64_MAX;
 }
 
-// Moves past one attribute whose name is read already.
+// Skips an attribute whose name was already read.
 void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t file_bytes,
                     const char* what) {
   const std::string type = read_name(file);
@@ -127,7 +129,8 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, and %ju follow", what,
                   name.c_str(), size, file_bytes - at);
-  // OpenEXR would continue at another place than we do, and take what it finds there for a size.
+  // Otherwise, OpenEXR would continue at a different position than this function, and interpret the bytes
+  // there as a size.
   if (value_size(file, type, size) != size)
     throw Failure(
         NOOK_ERROR_BAD_FILE,
@@ -138,8 +141,9 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
   file.seekg(std::streamoff(at + size));
 }
 
-// Checks the rows and columns that the attribute of the image's extent declares. Its name is read already. A
-// file of scanlines has 8 bytes for the place of each block of at most 256 rows.
+// Checks the rows and columns that an attribute with the image's extent declares. Its name was already read.
+// A scanline file stores an 8-byte offset for each block of at most 256 rows, so the file size limits the
+// number of rows.
 void check_extent(std::istream& file, std::uint32_t version, std::uintmax_t file_bytes, const char* what) {
   const auto at = file.tellg();
   read_name(file);  // its type
@@ -167,7 +171,7 @@ void check_exr_head(const char* what, const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (unknown || read_u32(file) != exr_magic) return;
   const std::uint32_t version = read_u32(file);
-  // An empty name ends a head; where a file has several parts, an empty head ends the list.
+  // An empty name ends a header. If a file has several parts, an empty header ends the list of headers.
   for (bool head_is_empty = true; file;) {
     const std::string name = read_name(file);
     if (!file || (name.empty() && (head_is_empty || (version & is_multipart) == 0))) return;

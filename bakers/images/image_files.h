@@ -1,4 +1,4 @@
-// Lists the images of a folder, and checks an image before a library takes memory for it.
+// Lists the images of a folder, and checks an image before a library allocates memory for it.
 #pragma once
 
 #include <cstddef>
@@ -8,22 +8,23 @@
 
 namespace nook::bake {
 
-// Returns sorted paths. Both functions throw Failure(NOOK_ERROR_BAD_FILE) if the folder cannot be read.
+// Both functions return sorted paths. images_below also searches subfolders. They throw
+// Failure(NOOK_ERROR_BAD_FILE) if the folder cannot be read.
 std::vector<std::filesystem::path> images_in(const std::filesystem::path& folder);
 std::vector<std::filesystem::path> images_below(const std::filesystem::path& folder);
 
 // Throws Failure(NOOK_ERROR_BAD_FILE) if an image has no texels, more than max_texels, or more than a file of
-// this many bytes can hold. `what` begins the message.
+// file_bytes bytes can hold. The message begins with `what`.
 void check_image_size(const char* what, int width, int height, std::size_t max_texels,
                       std::uintmax_t file_bytes);
 
-// Checks an EXR file's head before a library reads it. OpenEXR takes the memory that an attribute claims, up
-// to 2 GB, before it looks whether the file has as much.
+// Checks the header of an EXR file before a library reads it. This is necessary because OpenEXR allocates the
+// size that an attribute claims, up to 2 GB, before it checks that the file is that long.
 
-// Throws Failure(NOOK_ERROR_BAD_FILE) if `path` begins like an EXR file and its head is false. An attribute
-// may be longer than the rest of the file, or have another size than its type. The head may declare more rows
-// than the file has places for. `what` begins the message. A file of another kind, or one that cannot be
-// opened, passes: its reader names the fault.
+// Throws Failure(NOOK_ERROR_BAD_FILE) if `path` begins like an EXR file but its header is invalid: an
+// attribute is longer than the rest of the file, the size of an attribute does not match its type, or the
+// header declares more rows than the file can hold. The message begins with `what`. Files of other formats,
+// and files that cannot be opened, pass this check. Their reader reports the error.
 void check_exr_head(const char* what, const std::filesystem::path& path);
 
 }  // namespace nook::bake

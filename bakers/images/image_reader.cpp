@@ -26,10 +26,10 @@ constexpr std::array magics{Magic{"\x89PNG"sv, "png"},
                             Magic{"BM"sv, "bmp"}};
 constexpr std::size_t longest_magic = 10;
 
-// Netpbm bitmaps: P1 to P6, and the two kinds with floats.
+// Netpbm images: P1 to P6, and the two float formats, Pf and PF.
 constexpr std::string_view netpbm_kinds = "123456fF";
 
-// Formats that a name's ending can select.
+// The formats that a file's extension can select.
 constexpr std::array endings{"png"sv, "jpg"sv, "jpeg"sv, "exr"sv, "hdr"sv, "tif"sv, "tiff"sv,
                              "bmp"sv, "ppm"sv, "pgm"sv,  "pbm"sv, "pfm"sv, "tga"sv};
 

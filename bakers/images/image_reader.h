@@ -1,6 +1,6 @@
-// Opens each image file with one reader of OpenImageIO. If a reader refuses a file, OpenImageIO itself would
-// try all its other readers, including the readers of videos and raw photographs. A damaged image would take
-// some fifty times as long, and reach code that no image needs.
+// Opens each image file with a single reader of OpenImageIO. If a reader rejects a file, OpenImageIO by
+// default tries all its other readers, including those for videos and raw photographs. For a damaged image,
+// this would take about fifty times as long, and would run code that no supported image needs.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,13 @@
 
 namespace nook::bake {
 
-// Recognises an image's format from its first bytes. Returns the usual ending of its names without a dot:
-// png, jpg, exr, hdr, tif, bmp or ppm; null for others.
+// Recognises an image's format from its first bytes. Returns the usual file extension without the dot: png,
+// jpg, exr, hdr, tif, bmp or ppm. Returns null for other formats.
 const char* image_format_of(std::span<const std::byte> head);
 
-// Opens an image by its first bytes, whatever its name is. If they tell nothing, as in a TGA, the ending of
-// its name decides. Returns null if it cannot be opened; `why` is then the reason.
+// Opens an image. The first bytes of the file decide about the format. If they are not sufficient, as for
+// TGA, the file's extension decides. If the image cannot be opened, returns null and sets `why` to the
+// reason.
 std::unique_ptr<platform::ImageSource> open_image(const std::filesystem::path& path,
                                                   platform::ImageAlpha alpha, std::string& why);
 

@@ -96,7 +96,7 @@ std::string list_of(std::span<const std::string> names) {
   return list + (names.size() > most ? ", ..." : "");
 }
 
-// The candidate files for each map, before one of them is chosen.
+// The candidate file for each kind of map, before the choice between kinds.
 struct Places {
   std::optional<std::size_t> base_colour, normal_up, normal_down, roughness, gloss, metalness, height, packed;
 
@@ -128,7 +128,8 @@ std::optional<PbrName> parse_pbr_name(std::string_view name) {
   std::optional<PbrMap> map;
   bool green_down = false;
   std::vector<std::string> parts = words_of(name);
-  // A picture of a whole material, such as "Metal032_1K.png", begins with the name of the material.
+  // A preview picture such as "Metal032_1K.png" begins with the name of the material. Its "metal" does not
+  // mean a metalness map.
   if (parts.size() > 1 && parts.front() == "metal") parts.erase(parts.begin());
   for (const std::string& word : parts) {
     const auto* const known =
@@ -175,7 +176,8 @@ namespace fs = std::filesystem;
 
 // 8192 x 8192. Three channels of floats then take 0.8 GB.
 constexpr std::size_t most_texels = std::size_t{1} << 26;
-// The least cosine of a normal against the plane's normal. Flatter directions are noise of the image.
+// The minimum cosine of the angle between a normal and the plane's normal. Normals that are tilted further
+// are noise in the image.
 constexpr float least_upright = 0.1f;
 
 struct MapImage {
@@ -185,7 +187,7 @@ struct MapImage {
   std::size_t channels = 0;  // 1 or 3
   std::vector<float> texels;
 
-  // Returns a channel of a texel; one channel stands for three.
+  // Returns a channel of a texel. A single channel is used for all three.
   float at(std::size_t texel, std::size_t channel) const {
     return texels[texel * channels + (channels == 3 ? channel : 0)];
   }
@@ -210,7 +212,7 @@ MapImage read_image(const fs::path& path, bool needs_colour) {
   if (!input) fail(path, why);
   const platform::ImageHead& spec = input->head();
   if (spec.channels < 1 || spec.depth > 1) fail(path, "it is not a flat image");
-  std::error_code unknown;  // on an error, file_size returns the largest number
+  std::error_code unknown;  // on an error, file_size returns the maximum value
   check_image_size(path.c_str(), spec.width, spec.height, most_texels, fs::file_size(path, unknown));
   if (spec.width != spec.height)
     throw Failure(NOOK_ERROR_BAD_FILE,

@@ -13,12 +13,12 @@
 
 namespace nook::bake::material {
 
-// Recognises names of the maps of a physically based material, as artists and libraries of materials use
-// them. Examples are "Bricks090_4K_NormalGL.png", "rough_wood_diff_4k.jpg" and "cloth_base_color.tif".
+// Recognises the maps of a physically based material by the file names that artists and material libraries
+// use. Examples are "Bricks090_4K_NormalGL.png", "rough_wood_diff_4k.jpg" and "cloth_base_color.tif".
 
 enum class PbrMap : unsigned char {
   base_colour,
-  normal,     // red to the right, green up
+  normal,     // red points right, green points up
   roughness,  // perceptual
   gloss,      // 1 - roughness
   metalness,
@@ -28,48 +28,50 @@ enum class PbrMap : unsigned char {
 
 struct PbrName {
   PbrMap map = PbrMap::base_colour;
-  bool green_down = false;  // a normal map in the convention of Direct3D
+  bool green_down = false;  // a normal map in the Direct3D convention
 };
 
-// Splits a name into words at signs, digits and steps from lower to upper case. The last word that stands for
-// a map decides, so that "rough_wood_diff" is a base colour. Returns nothing if there is no such word, and
-// for maps that we do not use: ambient occlusion, opacity, emission and specular maps.
+// Splits a name into words at punctuation, at digits, and where an upper-case letter follows a lower-case
+// one. The last word that names a map decides, so that "rough_wood_diff" is a base colour. Returns nothing if
+// no word names a map, or if the map is one that we do not use: ambient occlusion, opacity, emission or
+// specular.
 std::optional<PbrName> parse_pbr_name(std::string_view file_name);
 
-// Indices of the names; none for a missing map.
+// For each map, the index of its name in the list, or nothing if the map is missing.
 struct PbrFiles {
   std::size_t base_colour = 0;
   std::optional<std::size_t> normal, roughness, metalness, height, packed;
   bool roughness_is_gloss = false, green_down = false;
 };
 
-// Chooses between files of one kind: a normal map of OpenGL before one of Direct3D, roughness before gloss,
-// and a separate map before a packed one. Throws Failure(NOOK_ERROR_BAD_FILE) that names two files of one
-// map, or lists names if there is no base colour.
+// Chooses the file for each map. An OpenGL normal map is preferred to a Direct3D one, roughness to gloss, and
+// a separate map to a packed one. Throws Failure(NOOK_ERROR_BAD_FILE) if two files are for the same map (the
+// message names both), or if there is no base colour (the message lists the names).
 PbrFiles arrange_pbr_names(std::span<const std::string> file_names);
 
 struct PbrFolder {
   PbrMaps maps;
-  std::vector<std::string> file_names;  // images that were read
+  std::vector<std::string> file_names;  // names of the images that were read
 };
 
-// Reads every image of the folder whose name tells a map; it does not search folders below. The base colour
-// is sRGB in integer images and linear in float images. Other maps are plain numbers. Values of colour,
-// roughness and metalness are cut to 0 to 1.
+// Reads every image of the folder whose name names a map. Does not search subfolders. The base colour is sRGB
+// in integer images, and linear in float images. Other maps are always linear. Colour, roughness and
+// metalness are clamped to 0 to 1.
 //
-// Images may have any size, but must be square. Each is averaged over the cells of a grid of side x side
-// points (periodic_tile.h): colours, heights, slopes of normals, squared GGX widths. Image rows begin at the
-// top of the tile, whose y points up.
+// Images may have any size, but must be square. They are resampled to a grid of side x side points by
+// averaging over the cells of the grid (periodic_tile.h). The averaged quantities are colours, heights,
+// slopes of normals, and squared GGX widths. The first image row is the top of the tile. In the tile, y
+// points up.
 //
-// Throws Failure(NOOK_ERROR_BAD_FILE) that names the file if it is unreadable or not square, has more than
-// 2^26 texels, too few channels or a texel that is not finite. Throws it also if the folder cannot be read or
-// has no names of a set.
+// Throws Failure(NOOK_ERROR_BAD_FILE) that names the file if an image is unreadable or not square, has more
+// than 2^26 texels, has too few channels, or has a texel that is not finite. Also throws it if the folder
+// cannot be read, or if its file names do not form a set of maps.
 PbrFolder read_pbr_folder(const std::filesystem::path& folder, std::uint32_t side);
 
-// Reads only the height map of such a set: one image, in units of a height scale, y * side + x.
+// Reads a single height map. Heights are in units of a height scale. The index of a point is y * side + x.
 std::vector<float> read_height_map(const std::filesystem::path& file, std::uint32_t side);
 
-// Reads only the heights. The result has as many points as the image has texels.
+// Reads a single height map at its own resolution. All other maps of the result are empty.
 PbrMaps read_height_image(const std::filesystem::path& file);
 
 }  // namespace nook::bake::material

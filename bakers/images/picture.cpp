@@ -29,7 +29,7 @@ Colour grey(float value) {
   return {v, v, v};
 }
 
-// A polynomial of degree six through matplotlib's table (M. Zucker, public domain), within 0.01 of it.
+// A polynomial of degree six that approximates matplotlib's table to within 0.01 (M. Zucker, public domain).
 Colour viridis(float value) {
   static constexpr float c[7][3] = {{0.27773f, 0.00541f, 0.33410f},   {0.10509f, 1.40461f, 1.38459f},
                                     {-0.33086f, 0.21485f, 0.09510f},  {-4.63423f, -5.79910f, -19.33244f},
@@ -48,7 +48,7 @@ BodyView::BodyView(std::span<const std::array<std::uint32_t, 3>> triangles,
   const Bounds box = bounds_of(positions_ws);
   const Vec3 size = box.high - box.low;
   const float metres_per_pixel =
-      // A single point also has a scale.
+      // The minimum of 1e-6 is for a body that is a single point.
       margin * std::max({size.x / float(width), size.y / float(height), 1e-6f});
   cast(positions_ws,
        {0.5f * (box.low + box.high), {0, 0, side == BodySide::front ? 1.0f : -1.0f}, metres_per_pixel});
@@ -134,9 +134,9 @@ void write_png(const std::filesystem::path& path, const Picture& picture) {
 namespace nook::bake::probe {
 namespace {
 
-constexpr float mean_shade = 0.35f;  // value of the map's mean luminance on the picture, linear
+constexpr float mean_shade = 0.35f;  // linear value at which the picture shows the map's mean luminance
 
-// Compresses bright values by a shoulder, so that a sun keeps its shape, and applies the sRGB curve.
+// Compresses bright values, so that a sun keeps its shape, and applies the sRGB curve.
 float display(float value) {
   const float x = std::max(value, 0.0f);
   const float shown = x * (1 + x / 16) / (1 + x);
@@ -165,7 +165,7 @@ Picture map_picture(const Environment& map, const Basis& basis, std::span<const 
   const Channels light = integrate(map, {}).radiance;
   const float mean =
       luminance({float(light[0]), float(light[1]), float(light[2])}) / (4 * std::numbers::pi_v<float>);
-  // A mean m becomes m e / (1 + m e) = mean_shade.
+  // A mean m with exposure e becomes m e / (1 + m e) = mean_shade.
   const float exposure = mean > 0 ? mean_shade / ((1 - mean_shade) * mean) : 1.0f;
   std::array<Picture, 4> panels;
   const int width = int(panel_width), height = width / 2;

@@ -1,4 +1,4 @@
-// Draws a body with a value at each vertex by primary rays, for example the error on the body.
+// Draws a body by primary rays, coloured by a value at each vertex, for example the error.
 #pragma once
 
 #include <array>
@@ -13,7 +13,7 @@
 
 namespace nook::bake {
 
-// 8-bit RGB rows, top first.
+// 8-bit RGB. The first row is the top.
 struct Picture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
@@ -24,28 +24,28 @@ using Colour = std::array<float, 3>;  // display values in [0, 1]
 Colour grey(float value);     // black at 0, white at 1
 Colour viridis(float value);  // perceptually uniform from dark violet (0) to yellow (1)
 
-enum class BodySide { front, back };  // seen from +z or from -z, +y up
+enum class BodySide { front, back };  // seen from +z (front) or from -z (back), +y up
 
-// A parallel view of a body. +y is up in the picture, or -z where the view is along y.
+// An orthographic view of a body. +y is up in the picture. If the view is along y, -z is up.
 struct BodyCamera {
-  Vec3 centre_ws;  // in the middle of the picture
-  Vec3 towards;    // unit length
+  Vec3 centre_ws;  // the point in the middle of the picture
+  Vec3 towards;    // view direction, unit length
   float metres_per_pixel = 1;
 };
 
-// Stores the triangle that each sample of an orthographic picture sees. Rays are cast once, and you can draw
-// the view with any values.
+// Stores the triangle that each sample of an orthographic picture sees. The constructor casts the rays. You
+// can then draw the view several times, with different values.
 class BodyView {
  public:
-  // The body fills the picture up to a margin. Both sides of one body have the same scale.
+  // The body fills the picture except for a margin. The front and back views of a body have the same scale.
   BodyView(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions_ws,
            BodySide side, int width, int height);
 
   BodyView(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions_ws,
            const BodyCamera& camera, int width, int height);
 
-  // Interpolates one value for each vertex and colours it. relief (0 to 1) is how much darker a surface seen
-  // from the side is than one that faces the viewer.
+  // Interpolates the vertices' values, and converts them to colours. `relief` (0 to 1) sets how much a
+  // surface is darkened when it is seen at a grazing angle.
   Picture draw(std::span<const float> vertex_value, Colour (*colour)(float), float relief = 0) const;
 
  private:
@@ -54,7 +54,7 @@ class BodyView {
   struct Hit {
     std::uint32_t triangle;
     float u, v;
-    float cosine;  // cosine of the angle between the view and the face's normal
+    float cosine;  // of the angle between the view and the face's normal
   };
   static constexpr std::uint32_t nothing = ~0u;
 
@@ -77,15 +77,15 @@ void write_png(const std::filesystem::path& path, const Picture& picture);
 
 namespace nook::bake::probe {
 
-// Draws a map beside a probe that was fitted to it.
+// Compares a map with a probe that was fitted to it.
 
-// Draws four latitude-longitude panels in a row, panel_width by half of it:
+// Draws four latitude-longitude panels in a row. Each panel is panel_width wide and half as high:
 //   1. the map;
 //   2. the probe's radiance;
 //   3. its irradiance over pi, as a white surface would look;
 //   4. the luminance of its radiance error, e / (e + the map's mean luminance), from violet (0) over green to
 //      yellow (large).
-// The first three have one exposure, by the map's mean luminance.
+// The first three panels have the same exposure, which depends on the map's mean luminance.
 Picture map_picture(const Environment& map, const Basis& basis, std::span<const Vec3> coefficients,
                     std::uint32_t panel_width = 512);
 

@@ -19,7 +19,7 @@ using namespace std::string_view_literals;
 
 constexpr std::size_t most_texels = std::size_t{1} << 26;
 
-// Returns null for formats that glTF does not allow.
+// Returns the format of an image, or null if glTF does not allow it.
 const char* format_of(const std::vector<std::byte>& bytes) {
   const char* format = image_format_of(bytes);
   return format && (format == "png"sv || format == "jpg"sv) ? format : nullptr;
@@ -107,7 +107,7 @@ Environment read_environment(const std::filesystem::path& path) {
   if (!image) throw Failure(NOOK_ERROR_BAD_FILE, "cannot be read as an image (%s)", why.c_str());
   const platform::ImageHead& spec = image->head();
   check_layout(spec, image->format_name());
-  std::error_code unknown;  // on an error, the size is the largest number
+  std::error_code unknown;  // on an error, file_size returns the maximum value
   check_image_size("the map", spec.width, spec.height, std::size_t{most_columns} * (most_columns / 2),
                    std::filesystem::file_size(path, unknown));
   std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));

@@ -1,5 +1,5 @@
-// Reads a scene from its file, with textures, and the light around it. Only the tool compiles this, or the
-// library would load OpenImageIO for nothing.
+// Reads a scene with its textures, and the environment map that lights it. Only the tool compiles this file,
+// so that the library does not have to load OpenImageIO.
 #pragma once
 
 #include <filesystem>
@@ -15,18 +15,19 @@
 
 namespace nook::bake {
 
-// Fails with BAD_FILE if OpenImageIO cannot read the image, or if it has more than 2^26 texels; the message
-// starts with the image's name.
+// Throws Failure(BAD_FILE) if OpenImageIO cannot read the image, or if the image has more than 2^26 texels.
+// The message starts with the image's name.
 Texture decode_texture(const EncodedImage& image);
 
 }  // namespace nook::bake
 
 namespace nook::bake::probe {
 
-// Reads a latitude-longitude map of floating-point radiance (.hdr, .exr), twice as wide as high, at most
-// 16,384 columns. Filters leave negative values behind; they become 0 if they add up to 1 % of the others or
-// less. Fails with BAD_FILE on anything else, also on values that are not finite or above raytrace's
-// max_radiance. The message names the fault, and the caller adds the name of the file.
+// Reads a latitude-longitude map of floating-point radiance (.hdr, .exr). It must be twice as wide as high,
+// with at most 16,384 columns. Negative values, which filters sometimes produce, are set to 0 if their sum is
+// at most 1 % of the sum of the others. Throws Failure(BAD_FILE) for any other image, and for values that are
+// not finite or above raytrace's max_radiance. The message does not name the file; the caller must add its
+// name.
 Environment read_environment(const std::filesystem::path& path);
 
 }  // namespace nook::bake::probe
@@ -35,13 +36,13 @@ namespace nook::bake {
 
 struct ProbeScene {
   TriangleSoup soup;
-  Vec3 low_ws, high_ws;     // what all triangles fill, metres
-  float origin_offset = 0;  // metres along the normal, of rays that leave a surface
+  Vec3 low_ws, high_ws;     // bounding box of all triangles, metres
+  float origin_offset = 0;  // how far along the normal rays from a surface start, metres
   std::unique_ptr<LitScene> lit;
 };
 
-// Throws Failure (BAD_FILE) that names the texture, where it is one's fault. Without textures their colour
-// factors stand for them. Adds the warnings of the import.
+// Appends the warnings of the import to `warnings`. If `textures` is false, uses only the materials' colour
+// factors. Throws Failure(BAD_FILE). If a texture is the cause, the message names it.
 LitTriangles read_lit_triangles(const std::filesystem::path& path, bool textures,
                                 const ImportOptions& options, std::vector<std::string>& warnings);
 

@@ -7,12 +7,12 @@
 
 namespace nook::bake {
 
-// Takes values of 0 to 1.
+// Converts an sRGB value from 0 to 1 to a linear value.
 inline float linear_from_srgb(float v) {
   return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
 
-// Converts from CIE 1931 XYZ under D65, where white has Y = 1. Colours outside the sRGB triangle get negative
+// Converts from CIE 1931 XYZ under D65, where white has Y = 1. Colours outside the sRGB gamut get negative
 // values.
 inline Vec3 linear_rgb_from_xyz(Vec3 xyz) {
   return {3.2406f * xyz.x - 1.5372f * xyz.y - 0.4986f * xyz.z,

@@ -28,14 +28,14 @@ struct Pair {
   Angles light, view;
 };
 
-// A light is moved by less than the distance between neighbouring directions.
+// The database moves a light by less than the angle between neighbouring directions.
 constexpr float most_moved_deg = 15;
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// Returns the number after a two-letter key that no other letter precedes.
+// Returns the number after a two-letter key. There must be no letter before the key.
 std::optional<float> number_behind(std::string_view text, std::string_view key) {
   std::optional<float> found;
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
@@ -90,8 +90,9 @@ std::vector<Pair> read_pairs(std::span<const std::string> names) {
   return pairs;
 }
 
-// A lamp cannot be at the camera's place, so the database moves it if light and view would be equal. Such a
-// light exists for one view only. Its image replaces the missing pair.
+// Restores the pairs whose light was moved. The lamp cannot be at the camera's position, so the database
+// moves it if light and view directions are equal. A moved light exists for only one view. Its image replaces
+// the missing pair.
 void put_moved_lights_back(std::vector<Pair>& pairs) {
   std::map<Angles, std::set<Angles>> views_of;
   for (const Pair& p : pairs) views_of[p.light].insert(p.view);
@@ -159,7 +160,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float max_half = 65504;  // the largest half float
-// For one image: 32 million texels take 0.8 GB while all of them are read.
+// The limit for one image. Reading 32 million texels at once takes 0.8 GB.
 constexpr std::size_t most_image_texels = std::size_t{1} << 25;
 
 struct Size {
@@ -168,13 +169,13 @@ struct Size {
   bool operator==(const Size&) const = default;
 };
 
-// A part of an image, in texels from the upper left.
+// A part of an image, in texels from the upper left corner.
 struct Region {
   int left = 0, top = 0;
   Size size;
 };
 
-// One image of the set. Opening it reads its head.
+// One image of the set. The constructor opens the file and reads its header.
 class UboImage {
  public:
   UboImage(const fs::path& path, FloatColours colours) : path_(path) {
@@ -184,15 +185,15 @@ class UboImage {
     if (!input_) fail(why);
     const platform::ImageHead& spec = input_->head();
     if (spec.channels < 1 || spec.depth > 1) fail("it is not a flat image");
-    std::error_code unknown;  // on an error, the size is the largest number
+    std::error_code unknown;  // on an error, file_size returns the maximum value
     check_image_size(path.c_str(), spec.width, spec.height, most_image_texels, fs::file_size(path, unknown));
     find_channels(spec, colours);
   }
 
   Size size() const { return {input_->head().width, input_->head().height}; }
 
-  // Returns the texels of a region, linear, rows top first. Keeps in memory only the rows or tiles that hold
-  // the region.
+  // Returns the texels of a region as linear values. The first row is the top. Keeps in memory only the rows
+  // or tiles that contain the region.
   std::vector<float> read(const Region& region) {
     const Region held = held_region(region);
     std::vector<float> raw(channels_read_ * std::size_t(held.size.width) * std::size_t(held.size.height));
@@ -214,7 +215,8 @@ class UboImage {
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s: cannot be read (%.150s)", path_.c_str(), why.c_str());
   }
 
-  // One channel stands for three. Channels above the third are not read, unless X, Y and Z are among them.
+  // A single channel is used for all three. Channels after the third are not read, unless X, Y and Z are
+  // among them.
   void find_channels(const platform::ImageHead& spec, FloatColours colours) {
     if (spec.channels < 3) return;
     channel_ = {0, 1, 2};
@@ -232,7 +234,7 @@ class UboImage {
     channels_read_ = std::ranges::max(channel_) + 1;
   }
 
-  // Returns the rows or tiles that hold a region.
+  // Returns the rows or tiles that contain a region.
   Region held_region(const Region& region) const {
     const platform::ImageHead& spec = input_->head();
     if (spec.tile_width == 0) return {0, region.top, {spec.width, region.size.height}};
@@ -278,7 +280,8 @@ class UboImage {
   bool is_xyz_ = false;
 };
 
-// In a raw material, y counts from the bottom; images begin at the top.
+// Copies an image to the raw material. In a raw material, the first row is the bottom; in an image, it is the
+// top.
 void copy_image(const std::vector<float>& rgb, std::size_t light, std::size_t view, RawMaterial& raw) {
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t x = 0; x < raw.width; ++x) {
@@ -319,7 +322,7 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
                   names.size(), raw.width, raw.height, double(values) * sizeof(float) / double(1 << 30));
   raw.btf.resize(values);
 
-  // We report the fault of the first image, whatever the order of threads.
+  // Reports the error of the first faulty image, regardless of the order in which threads run.
   std::vector<std::string> fault(names.size());
   std::atomic<bool> failed{false}, stopped{false};
   std::mutex turn;

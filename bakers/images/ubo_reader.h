@@ -14,43 +14,46 @@
 
 namespace nook::bake::material {
 
-// File names of measured BTFs in the layout of Bonn's 2003 database, which UTIA's database uses as well.
-// There is one image for each light and view direction. Its name holds tl, pl, tv, pv (tilt and azimuth of
-// light and view, degrees), each followed by a number, such as "00012_tl015_pl060_tv030_pv090.png". UTIA has
-// a folder for each view, and moves lights that would be at the camera's place.
+// File names of measured BTFs in the layout of Bonn's 2003 database. UTIA's database uses the same layout.
+// There is one image for each pair of light and view directions. Its name contains tl, pl, tv, pv (tilt and
+// azimuth of light and view, degrees), each followed by a number. An example is
+// "00012_tl015_pl060_tv030_pv090.png". UTIA has a folder for each view. Where the light would be at the
+// camera's position, UTIA uses a light direction nearby.
 
 struct UboAngles {
   float light_tilt = 0, light_azimuth = 0, view_tilt = 0, view_azimuth = 0;  // degrees
 };
 
-// Returns nothing if one of the four is missing or appears twice.
+// Returns nothing if one of the four angles is missing or appears twice.
 std::optional<UboAngles> parse_ubo_name(std::string_view file_name);
 
 struct UboGrid {
-  std::vector<Vec3> lights, views;  // by tilt, then azimuth
-  std::vector<std::size_t> image;   // lights x views: index of the name
+  std::vector<Vec3> lights, views;  // sorted by tilt, then azimuth
+  std::vector<std::size_t> image;   // lights x views: index of the file name
 };
 
-// Sorts names into a full grid. If a pair is missing, a light of this view alone, within 15 degrees of it,
-// stands for the light in the view's direction. Throws Failure(NOOK_ERROR_BAD_FILE) that names the file with
-// an unreadable name, the two files with the same directions, or the first missing pair of directions and how
-// many are missing.
+// Sorts names into a full grid of lights and views. A pair may be missing if its light and view directions
+// are equal. Then the image of a moved light replaces it: a light direction that only this view has, at most
+// 15 degrees away. Throws Failure(NOOK_ERROR_BAD_FILE) if a name cannot be parsed, if two files have the same
+// directions, or if pairs are missing. The message names these files, or the first missing pair and the
+// number of missing pairs.
 UboGrid arrange_ubo_names(std::span<const std::string> file_names);
 
-// What the three channels of float images mean. Channels that are called X, Y and Z are always xyz.
+// What the three channels of float images mean. Channels with the names X, Y and Z are always `xyz`.
 enum class FloatColours {
-  rgb,  // linear, primaries of sRGB
-  xyz,  // CIE 1931 under D65, as UTIA's database has them
+  rgb,  // linear, sRGB primaries
+  xyz,  // CIE 1931 under D65, as in UTIA's database
 };
 
-// Reads every image below the folder whose name is as described above. Integer images are sRGB and are made
-// linear; float images are linear. One channel stands for three, and channels after the third are ignored. If
-// `texels` is above 0, reads the square of this side in the middle of the images, and keeps in memory only
-// the rows or tiles that hold it. The result has no VOTF. Progress counts images.
+// Reads all images with names as described above in the folder and its subfolders. Integer images are sRGB
+// and are converted to linear; float images are linear. If an image has one channel, it is used for all
+// three. Channels after the third are ignored. If `texels` is above 0, reads only a square of this side in
+// the middle of each image, and keeps in memory only the rows or tiles that contain it. The result has no
+// VOTF. Progress counts images.
 //
-// Throws Failure(NOOK_ERROR_BAD_FILE) that names the file if it is unreadable, differs in size from the
-// first, or has a texel in the square that is not finite. Throws it also if the folder has no images, lacks
-// pairs of directions, or needs more than `most_bytes` of BTF.
+// Throws Failure(NOOK_ERROR_BAD_FILE) that names the file if an image is unreadable, differs in size from the
+// first one, or has a texel in the square that is not finite. Also throws it if the folder has no images, if
+// pairs of directions are missing, or if the BTF would take more than `most_bytes`.
 RawMaterial read_ubo_folder(const std::filesystem::path& folder, std::uint32_t texels,
                             const Progress& progress = {}, std::size_t most_bytes = std::size_t{6} << 30,
                             FloatColours colours = FloatColours::rgb);
