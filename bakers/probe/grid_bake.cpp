@@ -76,7 +76,8 @@ double GridBake::error() {
     apart_sum += apart[p];
     size_sum += size[p];
   }
-  // Each half has twice the variance of the whole, and their difference four times.
+  // The variance of each half is twice the variance of the whole fit, and the variance of their difference is
+  // four times as large.
   return size_sum > 0 ? 0.5 * std::sqrt(std::max(apart_sum, 0.0) / size_sum) : 0.0;
 }
 

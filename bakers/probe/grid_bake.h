@@ -1,4 +1,4 @@
-// A grid of probes in a path-traced scene, all refined together, pass by pass.
+// Bakes a grid of probes in a path-traced scene. Each pass refines all probes.
 #pragma once
 
 #include <algorithm>
@@ -25,23 +25,23 @@ struct GridBakeSettings {
 
 class GridBake {
  public:
-  // The scene must outlive this object. Throws what Fit and check_probes throw.
+  // The scene must outlive this object. Throws the same failures as Fit and check_probes.
   GridBake(const LitScene& scene, const GridBakeSettings& settings);
 
-  // Adds samples_per_pass paths to every probe, over all threads. Any number of threads gives the same bits.
+  // Adds samples_per_pass paths to every probe, in parallel. The result has the same bits on any number of
+  // threads.
   void pass();
   std::uint32_t passes() const { return passes_; }
-  std::uint64_t samples() const {
-    return std::uint64_t(passes_) * settings_.samples_per_pass;
-  }  // of each probe
+  std::uint64_t samples() const { return std::uint64_t(passes_) * settings_.samples_per_pass; }  // per probe
 
-  // Returns the remaining statistical error relative to the light: the root of the integrals of (R -
-  // R_limit)^2 over the integrals of R^2. Both are sums over all probes. The difference between fits of the
-  // odd and of the even passes gives the error. It is 1 before there are two passes.
+  // Returns the remaining statistical error relative to the radiance R: the root of the integral of (R -
+  // R_limit)^2 divided by the integral of R^2, both summed over all probes. The error is estimated from the
+  // difference between a fit to the odd passes and a fit to the even passes. Returns 1 before there are two
+  // passes.
   double error();
 
-  // Returns the present state; call it at any time between passes. Probes inside solids get no paths; they
-  // have the mean of their neighbours.
+  // Returns the present state. You can call it at any time between passes. Probes inside solids get no paths.
+  // Their coefficients are the mean of their neighbours' coefficients.
   nook::probe::Probes probes();
   const std::vector<Vec3>& positions_ws() const { return positions_ws_; }
   std::size_t inside_count() const { return std::size_t(std::count(inside_.begin(), inside_.end(), true)); }
@@ -63,7 +63,8 @@ class GridBake {
   std::uint32_t passes_ = 0;
 };
 
-// Places counts probes at the centres of equal cells that fill a box.
+// Divides a box into equal cells, and places a probe at the centre of each. `counts` is the number of cells
+// along each axis.
 nook::probe::Grid grid_in_box(const std::array<std::uint32_t, 3>& counts, Vec3 low_ws, Vec3 high_ws);
 
 }  // namespace nook::bake::probe

@@ -46,12 +46,12 @@ std::vector<bool> inside_probes(const LitScene& scene, const Grid& grid) {
 
 namespace {
 
-// Rows have `count` values for each probe.
+// `rows` has `count` values for each probe.
 void fill_rows(const Grid& grid, std::size_t count, std::vector<bool> inside, std::span<Vec3> rows) {
   const std::size_t row = grid.counts[0], slice = row * grid.counts[1];
   const auto left = [&] { return std::find(inside.begin(), inside.end(), true) != inside.end(); };
   while (left()) {
-    // Finds all probes of one layer at once, so that their order does not matter.
+    // Fills one layer of probes from the previous state, so that the order of probes does not matter.
     const std::vector<bool> before = inside;
     for (std::size_t p = 0; p < grid.size(); ++p) {
       if (!before[p]) continue;
@@ -73,7 +73,7 @@ void fill_rows(const Grid& grid, std::size_t count, std::vector<bool> inside, st
       for (std::size_t i = 0; i < count; ++i) rows[p * count + i] = sum[i] * (1 / neighbours);
       inside[p] = false;
     }
-    if (inside == before) return;  // all of them are
+    if (inside == before) return;  // all probes are inside
   }
 }
 
@@ -87,7 +87,7 @@ void fill_inside(nook::probe::Probes& probes, const std::vector<bool>& inside) {
 namespace {
 
 constexpr float clearance_share = 0.1f;  // share of the shortest spacing
-constexpr int steps = 4;                 // to each side along each axis
+constexpr int steps = 4;                 // in each direction along each axis
 constexpr float reach = 0.45f;           // distance of the last step, in spacings
 
 float clearance(const LitScene& scene, Vec3 position_ws) {

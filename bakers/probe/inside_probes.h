@@ -1,4 +1,4 @@
-// Finds probes inside solids. They receive no light, but interpolation would read them.
+// Finds and fills probes inside solids. These probes receive no light, but interpolation would read them.
 #pragma once
 
 #include <vector>
@@ -8,27 +8,29 @@
 
 namespace nook::bake::probe {
 
-// Returns true if more than half of all directions from the point meet a surface from behind, where its
-// vertices are clockwise. Sheets, and open rooms with walls that face inwards, are not solids.
+// Returns true if, in more than half of all directions, a ray from the point hits the back of a surface. The
+// vertices of a triangle are clockwise when seen from the back. Sheets do not count as solids, nor do open
+// rooms with walls that face inwards.
 bool is_inside(const LitScene& scene, Vec3 position_ws);
 
-// Returns one answer per probe. If all probes are inside, the vertices' order says nothing, and the result is
-// false for all.
+// Returns one result per probe. If all probes are inside, the winding of the scene is not reliable, and all
+// results are false.
 std::vector<bool> inside_probes(const LitScene& scene, const std::vector<Vec3>& positions_ws);
 std::vector<bool> inside_probes(const LitScene& scene, const nook::probe::Grid& grid);
 
-// Gives each probe inside the mean of its neighbours outside, at most six, and continues inwards from there.
+// Sets each inside probe to the mean of its neighbours outside (at most six). Probes without such neighbours
+// follow afterwards, layer by layer.
 void fill_inside(nook::probe::Probes& probes, const std::vector<bool>& inside);
 
-// Places the probes of a grid at their places in the grid, or moves them out of solids and away from walls.
-// Close to a wall, a probe would see mostly the wall.
+// Positions of the probes of a grid: at the grid points, or moved out of solids and away from walls. A probe
+// close to a wall would see mostly the wall.
 
-// Moves each probe that is in a solid, or nearer to a surface than a tenth of the shortest spacing. It moves
-// to the nearest place clear of both, less than half a spacing away along each axis. A probe without such a
-// place stays.
+// Moves each probe that is inside a solid, or closer to a surface than a tenth of the shortest spacing. The
+// probe moves to the nearest position that is neither, less than half a spacing away along each axis. If
+// there is no such position, the probe is not moved.
 std::vector<Vec3> moved_probes(const LitScene& scene, const nook::probe::Grid& grid);
 
-// Returns the places of the grid.
+// Returns the positions of the grid points.
 std::vector<Vec3> grid_probes(const nook::probe::Grid& grid);
 
 }  // namespace nook::bake::probe

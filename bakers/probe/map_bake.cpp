@@ -20,7 +20,7 @@ Vec3 uniform_direction(float u, float v) {
   return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
 
-// Returns the share of the sampler's directions that lie in the region.
+// Returns the probability that a direction of the sampler lies in the region.
 double probability(const Environment& map, const LightSampler& sampler, const Region& region) {
   double inside = 0;
   for (std::uint32_t row = 0; row < map.height(); ++row)

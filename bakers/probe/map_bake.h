@@ -1,4 +1,4 @@
-// One probe of one map.
+// Bakes one probe from one environment map.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace nook::bake::probe {
 
-// Samples of a map for fits.
+// Samples of a map, to fit a probe to.
 
 struct Samples {
   std::vector<float> direction, radiance;  // 3 per sample
-  std::vector<float> weight;               // 1 / (area of the region * density)
+  std::vector<float> weight;               // 1 / (area of the region * sampling density)
 
   std::size_t size() const { return weight.size(); }
   void add(Vec3 sample_direction, Vec3 sample_radiance, float sample_weight);
@@ -26,8 +26,8 @@ void add_samples(nook::probe::Fit& fit, const Samples& samples, std::size_t firs
 // Draws independent directions, uniform over the region.
 Samples uniform_samples(const Environment& map, const Region& region, std::size_t count, std::uint64_t seed);
 
-// Draws independent directions, half of them by luminance. So no weight exceeds twice the weight of a uniform
-// sample.
+// Draws independent directions: half of them in proportion to luminance, half uniformly. So no weight exceeds
+// twice the weight of a uniform sample.
 inline constexpr float uniform_share = 0.5f;
 Samples luminance_samples(const Environment& map, const LightSampler& sampler, const Region& region,
                           std::size_t count, std::uint64_t seed);
@@ -36,9 +36,9 @@ Samples luminance_samples(const Environment& map, const LightSampler& sampler, c
 Samples texel_samples(const Environment& map, const Region& region, std::uint64_t seed);
 
 enum class Sampling : std::uint8_t {
-  automatic =
-      0,       // texels for forms that solve; luminance for running averages, which a late sun would disturb
-  texels = 1,  // every texel once, in random order
+  automatic = 0,  // texels for methods that solve a system; luminance for running averages, which a sun in a
+                  // late sample would disturb
+  texels = 1,     // every texel once, in random order
   luminance = 2,  // half of the directions by luminance
   uniform = 3
 };
@@ -54,8 +54,8 @@ struct MapBakeSettings {
 // Returns the samples for a bake.
 Samples bake_samples(const Environment& map, const MapBakeSettings& settings);
 
-// Returns one coefficient per function. progress counts samples; throws Failure(NOOK_ERROR_CANCELLED) when it
-// returns false.
+// Returns one coefficient per basis function. `progress` counts samples. If it returns false, bake_map throws
+// Failure(NOOK_ERROR_CANCELLED).
 std::vector<Vec3> bake_map(const MapBakeSettings& settings, const Samples& samples,
                            const std::function<bool(std::size_t done, std::size_t total)>& progress = {});
 inline std::vector<Vec3> bake_map(
@@ -64,8 +64,9 @@ inline std::vector<Vec3> bake_map(
   return bake_map(settings, bake_samples(map, settings), progress);
 }
 
-// Returns the amplitudes for glossy reflection, see sdk/src/probe/gloss.h, of the map without its suns, which
-// a host draws as lights. basis must be Gaussians. Integrals are exact, whatever the method of the bake is.
+// Returns the amplitudes for glossy reflection, see sdk/src/probe/gloss.h. The suns of the map are left out,
+// because a host draws them as lights. `basis` must be Gaussians. Integrals are exact, whatever method the
+// bake uses.
 std::vector<Vec3> map_gloss(const Environment& map, const nook::probe::Basis& basis);
 
 }  // namespace nook::bake::probe

@@ -9,19 +9,19 @@
 namespace nook::bake::probe {
 namespace {
 
-// The maximum change of a basis function within a part of a texel. The error of the midpoint rule is then a
-// 24th of its square.
+// The maximum change of a basis function within a part of a texel. The error of the midpoint rule is 1/24 of
+// the square of this change.
 constexpr double finest_step = 0.1;
 
 std::uint32_t divisions(const Environment& map, const Basis& basis) {
-  float sharpest = 16;  // for harmonics and dice, which vary no faster
+  float sharpest = 16;  // for harmonics and dice, which do not vary faster
   for (std::uint32_t i = 0; i < basis.count && basis.kind == nook::probe::BasisKind::gaussians; ++i)
     sharpest = std::max(sharpest, basis.sharpness[i]);
   const double texel = std::numbers::pi / map.height();
   return std::uint32_t(std::clamp(std::ceil(texel * std::sqrt(double(sharpest)) / finest_step), 1.0, 64.0));
 }
 
-// Texels as separate arrays, so that sums over them are vector instructions.
+// Texels as separate arrays, so that the compiler can vectorise sums over them.
 struct TexelArrays {
   std::vector<float> x, y, z, r, g, b;  // centres; radiance times solid angle
 };
@@ -78,7 +78,7 @@ MapIntegrals integrate(const Environment& map, const Region& region) {
 std::vector<Channels> moments(const Environment& map, const Basis& basis) {
   const std::uint32_t parts = divisions(map, basis);
   const Region region = region_of(basis);
-  // Rows are added in order afterwards, which gives the same bits on any number of threads.
+  // Rows are added in order afterwards, so that the result has the same bits on any number of threads.
   std::vector<std::vector<Channels>> of_row(map.height(), std::vector<Channels>(basis.count));
   tbb::parallel_for(std::uint32_t(0), map.height(), [&](std::uint32_t row) {
     std::array<float, nook::probe::max_functions> value;
@@ -108,7 +108,7 @@ std::vector<Channels> moments(const Environment& map, const Basis& basis) {
 
 std::vector<Vec3> map_irradiance(const Environment& map, const Region& region,
                                  std::span<const Vec3> normals) {
-  constexpr std::size_t block = 1024;  // floats add up this far without losing digits
+  constexpr std::size_t block = 1024;  // sums of this many floats lose no digits that matter
   const TexelArrays texels = texel_arrays(map, region);
   std::vector<Vec3> irradiance(normals.size());
   tbb::parallel_for(std::size_t(0), normals.size(), [&](std::size_t n) {

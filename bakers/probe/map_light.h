@@ -1,5 +1,4 @@
-// The exact light of a whole map: integrals weighted by solid angle, and irradiance by summing over every
-// texel.
+// Exact light of a whole map, summed over every texel: integrals weighted by solid angle, and irradiance.
 #pragma once
 
 #include <array>
@@ -17,7 +16,7 @@ using nook::probe::Domain;
 
 using Channels = std::array<double, 3>;  // RGB
 
-// The part of the sphere that counts.
+// The part of the sphere that is used.
 struct Region {
   Domain domain = Domain::sphere;
   Vec3 up{0, 1, 0};  // the hemisphere's axis
@@ -34,15 +33,16 @@ struct MapIntegrals {
 };
 MapIntegrals integrate(const Environment& map, const Region& region);
 
-// Returns integrals of B_i f. Divides texels until the sharpest function varies little within a part.
+// Returns the integrals of B_i f for all basis functions B_i. Subdivides texels until the sharpest function
+// varies little within a part.
 std::vector<Channels> moments(const Environment& map, const Basis& basis);
 
-// Returns the irradiance on surfaces with these unit normals, from the light in the region. Texels count at
-// their centres.
+// Returns the irradiance on surfaces with these unit normals, from the light in the region. Each texel is
+// treated as a point light at its centre.
 std::vector<Vec3> map_irradiance(const Environment& map, const Region& region, std::span<const Vec3> normals);
 
-// Returns the same light in fewer texels. Halves the map while it has more columns than the maximum, and an
-// even number of rows and columns.
+// Returns the same light at a lower resolution. Halves both sides as long as the map has more than
+// most_columns columns and an even number of rows and columns.
 Environment reduced(Environment map, std::uint32_t most_columns);
 
 }  // namespace nook::bake::probe

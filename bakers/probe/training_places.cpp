@@ -15,7 +15,7 @@ namespace {
 using nook::probe::Grid;
 
 constexpr std::uint32_t rays_for_each_open_place = 4;
-constexpr int most_draws = 16;  // draws per origin outside solids
+constexpr int most_draws = 16;  // attempts to find an origin outside solids
 
 struct Box {
   Vec3 low, high;
@@ -24,7 +24,7 @@ struct Box {
   }
 };
 
-// The outermost cells reach half a spacing beyond their probes.
+// The outermost cells extend half a spacing beyond their probes.
 struct Range {
   float low, high;
 };

@@ -1,4 +1,5 @@
-// Places in the cells of a grid with their path-traced irradiance. Walls and coefficients are fitted to them.
+// Places in the cells of a grid, with path-traced irradiance. The walls and coefficients of a grid are fitted
+// to these places.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@ namespace nook::bake::probe {
 struct TrainingSettings {
   std::uint32_t origins = 24;  // per cell, for rays
   std::uint32_t rays =
-      8;  // per origin; each hit is a place on a surface, and every fourth ray has one in the open
+      8;  // per origin; each hit gives a place on a surface, and every fourth ray also a place in the open
   std::uint32_t paths = 128;  // per place
   std::uint64_t seed = 1;
   PathSettings path;
@@ -25,8 +26,8 @@ struct TrainingPlaces {
   std::size_t size() const { return normal.size(); }
 };
 
-// Chooses places on surfaces that are visible from open space in the grid's box, and in the open with random
-// normals. The result does not depend on the number of threads. progress counts places.
+// Chooses places on surfaces that are visible from open space in the grid's box, and places in open space
+// with random normals. The result does not depend on the number of threads. `progress` counts places.
 TrainingPlaces training_places(const LitScene& scene, const nook::probe::Grid& grid,
                                const TrainingSettings& settings, const Progress& progress = {});
 

@@ -23,28 +23,30 @@ using nook::probe::wall_planes;
 using nook::probe::WallPlane;
 
 constexpr std::size_t most_candidates = 24;
-constexpr std::size_t least_places = 4;  // on a side with its own mask
-constexpr double plane_gain = 0.92;      // a plane must lower the error below this share
-// A mask must lower the error by this share for each corner that it leaves out. With less, neighbouring cells
-// would choose differently, with visible seams.
+constexpr std::size_t least_places = 4;  // a side with fewer places gets no mask of its own
+constexpr double plane_gain = 0.92;      // a plane must reduce the error to less than this share
+// A mask must reduce the error by this share for each corner that it leaves out. With a smaller share,
+// neighbouring cells would choose different masks, with visible seams.
 constexpr double corner_gain = 0.1;
-constexpr double small_error = 2.5e-5;  // mean square of relative errors of 0.5 %, which no wall explains
-constexpr float dark_share = 0.1f;      // share of a cell's mean light; below it, errors count alike
+constexpr double small_error =
+    2.5e-5;  // mean squared relative error of 0.5 %, too small to be caused by a wall
+constexpr float dark_share =
+    0.1f;  // share of a cell's mean light; below it, all errors have about the same weight
 constexpr float same_normal = 0.999f, same_offset = 0.02f;  // cosine, and spacings
 
-// A place, and what each corner's probe alone would give there.
+// A training place, and the light that each corner's probe alone would give there.
 struct Sample {
   Vec3 in_cell;
   std::array<float, 8> weight;
-  std::array<Vec3, 8> light;  // irradiance times this weight
+  std::array<Vec3, 8> light;  // irradiance times the corner's weight
   Vec3 truth;
   bool on_surface;
-  WallPlane tangent;  // tangent plane of the surface, a little behind it
+  WallPlane tangent;  // the surface's tangent plane, moved a little behind the surface
   double importance;
 };
 
 struct Masked {
-  double error;  // with a penalty for missing corners
+  double error;  // including a penalty for corners that are left out
   std::uint8_t mask;
 };
 
@@ -75,7 +77,7 @@ Masked best_mask(const std::vector<const Sample*>& samples) {
   return best;
 }
 
-// A part of a cell between the planes so far.
+// A part of a cell, bounded by the planes chosen so far.
 struct Side {
   std::size_t number = 0;
   std::vector<const Sample*> samples;
@@ -86,7 +88,7 @@ bool is_behind(const WallPlane& plane, const Sample& sample) {
   return dot(plane.normal, sample.in_cell) + plane.offset < 0;
 }
 
-// Splits each side in half. If a half has too few places, it takes the mask of the whole.
+// Splits each side in two by a plane. A half with too few places gets the mask of the undivided side.
 std::vector<Side> split(const std::vector<Side>& sides, const WallPlane& plane, std::size_t k) {
   std::vector<Side> parts;
   for (const Side& side : sides) {
@@ -119,7 +121,7 @@ bool same_plane(const WallPlane& a, const WallPlane& b) {
          std::abs(a.offset - (cosine > 0 ? b.offset : -b.offset)) < same_offset;
 }
 
-// Returns the tangent planes of the cell's surfaces. The most frequent ones come first.
+// Returns the tangent planes of the cell's surfaces, the most frequent ones first.
 std::vector<WallPlane> candidates_of(const std::vector<Sample>& samples) {
   struct Counted {
     WallPlane plane;
@@ -163,7 +165,7 @@ CellWalls fit_cell(const std::vector<Sample>& samples) {
     if (best.empty()) break;
     sides = std::move(best);
   }
-  // Sides behind missing planes have no places, and nobody looks them up.
+  // Sides behind missing planes contain no places and are never looked up.
   for (const Side& side : sides) walls.counts[side.number] = side.masked.mask;
   return walls;
 }
@@ -183,8 +185,8 @@ Sample sample_of(const Probes& probes, const TrainingPlaces& places, std::size_t
   sample.truth = places.irradiance[i];
   sample.on_surface = places.on_surface[i] != 0;
   sample.importance = 1;
-  // Planes pass the surface at a quarter of the bias. So places at its foot are in front of them, and places
-  // on the other face of the thinnest sheet are behind them.
+  // Planes lie behind the surface, at a quarter of the bias. So lookups from this surface are in front of the
+  // plane, and lookups from the other face of even a thin sheet are behind it.
   const Vec3 spacing = probes.grid.spacing_ws, across = by_channel(normal, spacing);
   const Vec3 unit = across * (1 / length(across));
   const Vec3 lift{normal.x * bias / spacing.x, normal.y * bias / spacing.y, normal.z * bias / spacing.z};
@@ -192,7 +194,8 @@ Sample sample_of(const Probes& probes, const TrainingPlaces& places, std::size_t
   return sample;
 }
 
-// Weighs errors relative to the light of their place, so that errors in dark rooms beside bright ones count.
+// Makes errors relative to the light at their place, so that errors in a dark room next to a bright one still
+// have an effect.
 void weigh(std::vector<Sample>& samples) {
   double mean = 0;
   for (const Sample& s : samples) mean += double(luminance(s.truth)) / double(samples.size());
@@ -232,10 +235,11 @@ using nook::probe::Probes;
 using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr std::uint32_t order = 2, functions = nook::probe::harmonic_count(order);
-constexpr double least_light_share = 0.25;  // share of the mean light; below it, errors count alike
+constexpr double least_light_share =
+    0.25;  // share of the mean light; below it, all errors have about the same weight
 constexpr int most_steps = 200;
 
-// The weight of each corner's probe at a place, as in interpolate.
+// The weight of each corner's probe at a place, as in `interpolate`.
 struct Corners {
   std::array<std::size_t, 8> probe;
   std::array<double, 8> weight{};
@@ -309,7 +313,8 @@ void fit_to_surfaces(Probes& probes, const TrainingPlaces& places, const Surface
     channel(rest, j, 1) = importance * (double(truth.y) - found[1]);
     channel(rest, j, 2) = importance * (double(truth.z) - found[2]);
   }
-  // Differences of each band are weighted by how much they change irradiance.
+  // These rows keep the coefficients near the baked ones. The change of a coefficient is weighted by how much
+  // its band affects irradiance.
   for (Eigen::Index u = 0; u < unknowns; ++u) {
     const auto k = std::uint32_t(u % functions);
     const std::size_t band = k == 0 ? 0 : k < 4 ? 1 : 2;
