@@ -39,12 +39,13 @@ namespace {
 
 using tensor::Matrix;
 
-constexpr std::int32_t reach = 2;  // texels of a window on each side of its middle
+constexpr std::int32_t reach = 2;  // texels of a window on each side of its middle texel
 constexpr Eigen::Index window_texels = (2 * reach + 1) * (2 * reach + 1);
-constexpr Eigen::Index most_samples = 16384;  // windows that the components are taken from
+constexpr Eigen::Index most_samples =
+    16384;  // maximum number of windows that the principal components are computed from
 constexpr Eigen::Index block = 1024;
 
-// Returns the windows of the texels first, first + stride, ...
+// Returns the windows of `count` texels: first, first + stride, ...
 Matrix windows(const Matrix& values, const ExemplarShape& shape, std::int32_t spacing, Eigen::Index first,
                Eigen::Index stride, Eigen::Index count) {
   Matrix out(count, window_texels * values.cols());

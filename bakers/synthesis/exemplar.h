@@ -1,5 +1,5 @@
-// A material as the example of a plane: its looks, their averages, and what a level of the synthesis
-// compares.
+// An exemplar: the material from which a plane is synthesised. Contains the looks of its texels, their
+// averages, and the vectors that each level of the synthesis compares.
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace nook::bake::synthesis {
 
 // The looks of an exemplar's texels.
 
-// A texel of an exemplar, or a step between two.
+// A texel of an exemplar, or the offset between two texels.
 struct Texel {
   std::int32_t x = 0, y = 0;
   bool operator==(const Texel&) const = default;
@@ -27,25 +27,24 @@ constexpr Texel operator*(Texel a, std::int32_t s) {
   return {a.x * s, a.y * s};
 }
 
-// Returns i modulo size, at least 0.
+// Returns i modulo size. The result is never negative.
 constexpr std::int32_t wrapped(std::int32_t i, std::int32_t size) {
   const std::int32_t rest = i % size;
   return rest < 0 ? rest + size : rest;
 }
-// Mirrors i at both ends of a row. The last texel has no copy beside it.
+// Mirrors i at both ends of a row. The texels at the ends are not repeated.
 constexpr std::int32_t mirrored(std::int32_t i, std::int32_t size) {
   if (size == 1) return 0;
   const std::int32_t at = wrapped(i, 2 * size - 2);
   return at < size ? at : 2 * size - 2 - at;
 }
 
-// The shape of an exemplar. Beyond the border, a tiling exemplar continues on its other side, and any other
-// exemplar is mirrored.
+// The shape of an exemplar. Beyond its border, a tiling exemplar repeats, and any other exemplar is mirrored.
 struct ExemplarShape {
   std::int32_t width = 0, height = 0;
   bool is_tiling = true;
-  // Border of an exemplar that does not tile, in texels. A plane does not show it, because its surroundings
-  // are not known.
+  // Width of the border of an exemplar that does not tile, in texels. A plane does not show border texels,
+  // because their surroundings are not known.
   std::int32_t margin = 0;
 
   Texel inside(Texel t) const {
@@ -53,7 +52,7 @@ struct ExemplarShape {
                      : Texel{mirrored(t.x, width), mirrored(t.y, height)};
   }
   bool holds(Texel t) const { return t.x >= 0 && t.x < width && t.y >= 0 && t.y < height; }
-  // Moves a texel into the part that a plane may show.
+  // Moves a texel to the nearest one that a plane may show.
   Texel shown(Texel t) const {
     if (is_tiling) return inside(t);
     return {std::clamp(t.x, margin, width - 1 - margin), std::clamp(t.y, margin, height - 1 - margin)};
@@ -66,29 +65,29 @@ struct ExemplarShape {
 
 struct Exemplar {
   ExemplarShape shape;
-  tensor::Matrix values;  // a row for each texel, y * width + x
+  tensor::Matrix values;  // one row per texel, y * width + x
 };
 
-// Makes the Gaussian stack of an exemplar: versions of growing blur with the same number of texels.
+// The Gaussian stack of an exemplar: increasingly blurred versions with the same number of texels.
 
-// Returns levels + 1 versions. The first is the exemplar. Each further version filters the one before along
-// both axes with (1, 4, 6, 4, 1) / 16, at a spacing of 1, 2, 4, ... texels.
+// Returns levels + 1 versions. The first one is the exemplar. Each of the others is the previous version,
+// filtered along both axes with (1, 4, 6, 4, 1) / 16 at a spacing of 1, 2, 4, ... texels.
 std::vector<tensor::Matrix> gaussian_stack(const Exemplar& exemplar, std::uint32_t levels);
 
 // Appearance vectors: short vectors that describe the surroundings of an exemplar's texels.
 
 inline constexpr std::uint32_t appearance_channels = 8;
 
-// The window of a texel is 5 x 5 texels of `values` at the spacing. Returns the leading principal components
-// of all windows, a row for each texel.
+// The window of a texel is 5 x 5 texels of `values`, `spacing` texels apart. Projects all windows on their
+// leading principal components. Returns one row per texel.
 tensor::Matrix appearance_vectors(const tensor::Matrix& values, const ExemplarShape& shape,
                                   std::int32_t spacing);
 
-// Balances small details and large forms.
+// Balances small details and large shapes.
 
-// Returns the exemplar with each channel divided by the root of its standard deviation, and with the same
-// total variance. In a material with holes, the principal components mostly show the holes. A synthesis that
-// sees nothing else makes the rest flat.
+// Divides each channel by the square root of its standard deviation, and scales the result to the original
+// total variance. Without this, the principal components of a material with holes would mostly describe the
+// holes, and the synthesis would make everything else flat.
 Exemplar balanced(const Exemplar& exemplar);
 
 }  // namespace nook::bake::synthesis

@@ -8,18 +8,18 @@
 namespace nook::bake::synthesis {
 
 struct Seams {
-  // The share of pairs of neighbours in the plane that are not neighbours in the exemplar.
+  // The share of neighbouring texels in the plane that are not neighbours in the exemplar.
   double jumps = 0;
-  // For each such pair, takes the squared difference of their looks beyond the mean for neighbours in the
-  // exemplar. The energy is their sum over the texels of the plane. It is 0 if the exemplar continues without
-  // a seam.
+  // The energy of such a pair is the squared difference of its looks, minus the mean for neighbours in the
+  // exemplar. This field is the sum over all pairs, divided by the number of texels in the plane. It is 0 if
+  // the plane has no seam.
   double energy = 0;
 };
 
-// plane: side x side texels of the exemplar, row by row; the plane repeats.
+// `plane` contains side x side texels of the exemplar, row by row. The plane repeats.
 Seams measure_seams(const Exemplar& exemplar, std::span<const Texel> plane, std::int32_t side);
 
-// The same for the exemplar put beside itself.
+// Measures the seams of copies of the exemplar placed side by side.
 Seams measure_tiled(const Exemplar& exemplar);
 
 }  // namespace nook::bake::synthesis

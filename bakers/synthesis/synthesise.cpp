@@ -39,7 +39,8 @@ Matrix surroundings(const Matrix& appearance, const ExemplarShape& shape, std::i
   return out;
 }
 
-// Returns the squared distance of two texels, the shorter way around if the exemplar tiles.
+// Returns the squared distance of two texels. If the exemplar tiles, distances wrap around, and the shorter
+// one counts.
 double squared_distance(const ExemplarShape& shape, Texel a, Texel b) {
   double dx = std::abs(a.x - b.x), dy = std::abs(a.y - b.y);
   if (shape.is_tiling) {
@@ -69,7 +70,7 @@ std::vector<Texel> similar_texels(const Matrix& appearance, const ExemplarShape&
   std::vector<Texel> out(static_cast<std::size_t>(texels));
   tbb::parallel_for(Eigen::Index{0}, (texels + rows_of_task - 1) / rows_of_task, [&](Eigen::Index i) {
     const Eigen::Index first = i * rows_of_task, rows = std::min(rows_of_task, texels - first);
-    // The squared distances lack the rows' own squared lengths, which do not change the order.
+    // These are the squared distances without the squared lengths of the rows, which do not affect the order.
     Matrix distances = -2 * all.middleRows(first, rows) * candidates.transpose();
     distances.rowwise() += squares;
     for (Eigen::Index r = 0; r < rows; ++r) {
@@ -93,7 +94,7 @@ namespace {
 
 using tensor::Matrix;
 
-// A plane of n x n coordinates of the exemplar. The plane repeats.
+// A plane of side x side coordinates in the exemplar. The plane repeats.
 struct Plane {
   std::int32_t side = 0;
   std::vector<Texel> texels;
@@ -103,23 +104,24 @@ struct Plane {
   }
 };
 
-// A level of the exemplar, for the plane of that level.
+// The exemplar at one level, used for the plane of the same level.
 struct Level {
   ExemplarShape shape;
   std::int32_t spacing = 1;
   Matrix appearance;
-  Matrix looks;  // looks of single texels
+  Matrix looks;  // the looks of single texels
   std::vector<Texel> similar;
 };
 
-// Two random numbers in [-1, 1) for a texel of a level.
+// Returns two random values in [-1, 1) for a texel of a level.
 std::array<float, 2> random_pair(std::uint64_t seed, std::uint32_t level, Texel p) {
   const std::uint64_t bits = mix_bits(mix_bits(seed ^ (std::uint64_t(level) << 56)) ^
                                       (std::uint64_t(std::uint32_t(p.y)) << 32) ^ std::uint32_t(p.x));
   return {2 * unit_float(bits) - 1, 2 * unit_float(mix_bits(bits)) - 1};
 }
 
-// Returns the position in a row of the exemplar for a texel of the coarsest plane. random is in [-1, 1).
+// Returns the position along one axis of the exemplar for a texel of the coarsest plane. `random` is in [-1,
+// 1).
 std::int32_t coarsest_place(const ExemplarShape& shape, std::int32_t size, std::int32_t texel,
                             std::int32_t block, std::int32_t spacing, float random, float jitter) {
   const float moved = jitter * random / 2;
@@ -128,9 +130,10 @@ std::int32_t coarsest_place(const ExemplarShape& shape, std::int32_t size, std::
   return shape.margin + std::int32_t(std::lround((0.5f + moved) * float(room))) + texel % block * spacing;
 }
 
-// Covers the plane with square blocks of half the exemplar's size, each moved at random. Without the
-// movement, a tiling exemplar would continue from block to block, and any other would lie beside itself.
-// Without an initial order, the corrections would find the mean of everything.
+// Covers the plane with square blocks of half the exemplar's size. Each block shows a part of the exemplar,
+// moved at random. Without the movement, all blocks together would only repeat the exemplar, or one part of
+// it if it does not tile. Without blocks, the initial plane would have no structure, and the corrections
+// would converge to an average of the exemplar.
 Plane coarsest_plane(const Level& level, std::int32_t side, std::uint32_t number, float jitter,
                      std::uint64_t seed) {
   const ExemplarShape& s = level.shape;
@@ -147,7 +150,8 @@ Plane coarsest_plane(const Level& level, std::int32_t side, std::uint32_t number
   return plane;
 }
 
-// Gives each texel four children, half the spacing away along each axis, and moves them at random.
+// Replaces each texel by four children, and moves them at random. Without the movement, each child is half
+// the spacing away from its parent along each axis.
 Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, float jitter,
                 std::uint64_t seed) {
   const std::int32_t side = 2 * coarse.side, h = level.spacing;
@@ -155,7 +159,8 @@ Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, f
   tbb::parallel_for(0, side, [&](std::int32_t y) {
     for (std::int32_t x = 0; x < side; ++x) {
       const Texel parent = coarse.at({x / 2, y / 2});
-      // The four children are centred on the parent. At a spacing of 1, they lie to its left.
+      // The four children are centred on the parent. At a spacing of 1, this is not possible: along each
+      // axis, they lie on the parent and one texel before it.
       const auto place = [h](std::int32_t child) { return child == 0 ? -((h + 1) / 2) : h / 2; };
       const auto [a, b] = random_pair(seed, number, {x, y});
       const float reach = jitter * float(h);
@@ -169,8 +174,8 @@ Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, f
 
 constexpr std::array<Texel, 4> diagonals{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
 
-// The surroundings of a texel of the plane. For each diagonal neighbour, it has the mean of what three texels
-// near it expect there, equation (2) of the paper of 2006.
+// The surroundings of a texel of the plane. For each diagonal neighbour, three texels near it predict an
+// appearance vector, and the surroundings contain the mean of the three, equation (2) of the 2006 paper.
 using Surroundings = Eigen::Matrix<float, 4, Eigen::Dynamic, Eigen::RowMajor, 4, appearance_channels>;
 Surroundings surroundings(const Plane& plane, const Level& level, Texel p) {
   Surroundings out = Surroundings::Zero(4, level.appearance.cols());
@@ -193,13 +198,14 @@ float difference(const Surroundings& wanted, const Level& level, Texel candidate
   return sum;
 }
 
-// The weight of seams relative to differences of surroundings. Surroundings are leading components of windows
-// and do not describe every texel. A larger weight would join texels in the wrong surroundings.
+// The weight of seams relative to differences of surroundings. We need this term because the surroundings
+// contain only the leading components of windows, which do not describe every texel. A larger weight would
+// choose texels with the wrong surroundings.
 constexpr float seam_weight = 4;
 
-// Returns the visible seams between a candidate and its four neighbours in the plane. If a neighbour is not
-// the candidate's neighbour in the exemplar too, compares what each side shows with what the other side
-// expects there.
+// Measures the visible seams between a candidate and its four neighbours in the plane. If a neighbour in the
+// plane is not also the candidate's neighbour in the exemplar, compares the texel that each of the two shows
+// with the texel that continues the other one's piece of the exemplar.
 float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
   constexpr std::array<Texel, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   const ExemplarShape& s = level.shape;
@@ -216,8 +222,8 @@ float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
   return sum;
 }
 
-// Returns the best candidate from the 3 x 3 texels around p. Each proposes to continue its own piece of the
-// exemplar to p, or the most similar piece.
+// Returns the best candidate for p. Each of the 3 x 3 texels around p proposes two candidates: the texel that
+// continues its own piece of the exemplar to p, and the texel that continues the most similar piece.
 Texel corrected(const Plane& plane, const Level& level, Texel p) {
   const Surroundings wanted = surroundings(plane, level, p);
   Texel best = plane.at(p);
@@ -242,8 +248,7 @@ Texel corrected(const Plane& plane, const Level& level, Texel p) {
   return best;
 }
 
-// Corrects the texels whose coordinates are `phase` modulo 2. All of them read the plane before the
-// corrections.
+// Corrects the texels with coordinates equal to `phase` modulo 2. Every correction reads the plane `before`.
 void correct(const Level& level, Texel phase, const Plane& before, Plane& after) {
   tbb::parallel_for(0, (before.side - phase.y + 1) / 2, [&](std::int32_t row) {
     const std::int32_t y = 2 * row + phase.y;
@@ -253,7 +258,7 @@ void correct(const Level& level, Texel phase, const Plane& before, Plane& after)
   });
 }
 
-// Counts finished work, and can stop it.
+// Counts finished work for the progress callback, which can stop the synthesis.
 class Count {
  public:
   Count(std::size_t total, const Progress& progress) : total_(total), progress_(progress) {}
@@ -276,8 +281,8 @@ std::uint32_t level_count(const ExemplarShape& shape) {
   return levels - 1;
 }
 
-// Returns the shape of a level whose texels have this spacing. Near the border, within two spacings, windows
-// are partly mirror images, and a plane of such texels would repeat the border.
+// Returns the exemplar's shape for a level with this spacing. The margin is two spacings. Closer to the
+// border, windows are partly mirrored, and the plane would show the border again and again.
 ExemplarShape shape_of_level(ExemplarShape shape, std::int32_t spacing) {
   if (!shape.is_tiling) shape.margin = std::min(2 * spacing, std::min(shape.width, shape.height) / 4);
   return shape;
@@ -323,7 +328,7 @@ std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings&
   check_synthesis(exemplar, settings);
   const std::uint32_t levels = level_count(exemplar.shape);
   const std::vector<Matrix> stack = gaussian_stack(exemplar, levels);
-  // In the progress, a level's search for similar texels counts as one step per texel of the exemplar.
+  // For the progress, the search for similar texels counts as one step per exemplar texel at each level.
   std::size_t total = 0;
   for (std::uint32_t l = 0; l <= levels; ++l) {
     const std::size_t side = settings.side >> l;
