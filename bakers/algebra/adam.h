@@ -10,7 +10,7 @@ namespace nook::bake {
 struct Adam {
   explicit Adam(std::size_t parameters) : mean(parameters), square(parameters) {}
 
-  // Takes one step against the gradient, in parallel where parameters are many.
+  // Takes one step against the gradient. Runs in parallel if there are many parameters.
   void step(std::span<float> parameters, std::span<const float> gradient, float rate);
 
   std::vector<float> mean, square;

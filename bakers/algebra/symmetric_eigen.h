@@ -1,5 +1,5 @@
-// Eigenvalues of symmetric matrices, for every room that makes or measures data. Only one source uses Eigen's
-// solver, because each source that instantiates it takes seconds longer to compile.
+// Eigenvalues and eigenvectors of symmetric matrices. Use these functions instead of Eigen's solver, because
+// every source file that instantiates the solver takes seconds longer to compile.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,7 +14,7 @@ struct SymmetricEigen {
 // Reads the lower triangle of a square matrix.
 SymmetricEigen symmetric_eigen(const Eigen::MatrixXd& symmetric);
 
-// Returns only the values.
+// Computes only the eigenvalues, in ascending order.
 Eigen::VectorXd symmetric_eigenvalues(const Eigen::MatrixXd& symmetric);
 
 }  // namespace nook::bake
