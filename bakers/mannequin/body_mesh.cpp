@@ -25,8 +25,8 @@ std::vector<Vec3> area_weighted_normals(const TriangleMesh& mesh) {
 }
 
 std::vector<std::vector<std::uint32_t>> vertex_neighbours(const TriangleMesh& mesh) {
-  // On a closed mesh every edge is some triangle's outgoing edge at each of its ends, so one direction is
-  // enough.
+  // On a closed mesh, each edge occurs once in each direction, so it is enough to add one end per triangle
+  // edge.
   std::vector<std::vector<std::uint32_t>> neighbours(mesh.positions_m.size());
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -57,14 +57,15 @@ class Marcher {
   Marcher(const BodySdf& sdf, double cell_m) : sdf_(sdf), cell_m_(cell_m) {}
 
   TriangleMesh run() {
-    // A cube of 2^9 cells round the figure, halved down to single cells where the skin may pass.
+    // Starts with a cube of 2^9 cells per side around the figure. Subdivides it down to single cells where
+    // the skin may pass.
     visit({-256, -16, -256}, 512);
     return std::move(mesh_);
   }
 
  private:
-  // The cube's diagonal is shared by six tetrahedra; neighbouring cubes agree on their common face's
-  // diagonal.
+  // The six tetrahedra share the cube's diagonal. Neighbouring cubes use the same diagonal of their common
+  // face.
   static constexpr Corner tetrahedra[6][3] = {
       {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}},
       {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
@@ -75,7 +76,7 @@ class Marcher {
   double value_at(const Corner& c) {
     const auto [entry, is_new] = values_m_.try_emplace(key_of(c), 0.0);
     if (is_new) {
-      // A corner exactly on the skin would make triangles without area.
+      // A corner exactly on the skin would produce triangles without area.
       const double d = sdf_.distance(position_m(c));
       const double min_distance_m = 0.02 * cell_m_;
       entry->second = std::abs(d) < min_distance_m ? (d < 0.0 ? -min_distance_m : min_distance_m) : d;
@@ -146,8 +147,8 @@ class Marcher {
     for (const Corner& c : in) {
       outwards -= position_m(c) / static_cast<double>(in.size());
     }
-    // The crossings are made one by one, because compilers differ in the order in which they evaluate
-    // arguments.
+    // Computes the crossings in separate statements, because the order in which function arguments are
+    // evaluated depends on the compiler.
     if (in.size() == 2) {
       const std::uint32_t a = crossing(in[0], out[0]);
       const std::uint32_t b = crossing(in[0], out[1]);
@@ -172,8 +173,8 @@ class Marcher {
   TriangleMesh mesh_;
 };
 
-/// Polygonises the skin by marching tetrahedra on a uniform grid. The mesh is dense and uneven, and always a
-/// closed manifold.
+/// Polygonises the skin by marching tetrahedra on a uniform grid. The mesh is dense and irregular, but always
+/// a closed manifold.
 TriangleMesh march_tetrahedra(const BodySdf& sdf, double cell_m) {
   return Marcher(sdf, cell_m).run();
 }
@@ -186,7 +187,8 @@ double target_edge_m(const Vec3& point_m) {
   static const ArmFrame arm = left_arm_frame();
   const Vec3 p(std::abs(point_m.x), point_m.y, point_m.z);
   double edge_m = 0.0268;
-  // Limbs are thinner than the trunk, and joints need rings of vertices to bend.
+  // Limbs get shorter edges than the trunk, because they are thinner and need rings of vertices to bend at
+  // the joints.
   const double along_arm_m = glm::dot(p - arm.shoulder_m, arm.along);
   const double off_arm_m = glm::length(p - arm.shoulder_m - arm.along * along_arm_m);
   if (off_arm_m < 0.12 && along_arm_m > 0.0) {
@@ -194,7 +196,7 @@ double target_edge_m(const Vec3& point_m) {
     const double past_wrist_m = glm::dot(p - arm.wrist_m, arm.along);
     edge_m = glm::mix(edge_m, 0.0105, ramp(past_wrist_m, -0.10, 0.010));
     edge_m = glm::mix(edge_m, 0.0066, ramp(past_wrist_m, 0.020, 0.075));
-    // The thumb leaves the palm sideways.
+    // The thumb branches off the palm sideways.
     const double thumb =
         ramp(glm::dot(p - arm.wrist_m, arm.forward), 0.025, 0.045) * ramp(past_wrist_m, 0.0, 0.03);
     edge_m = glm::mix(edge_m, 0.0068, thumb);

@@ -9,7 +9,8 @@
 namespace nook::mannequin {
 namespace {
 
-// Distances of lofts and ellipsoids are estimates that may fall short of the truth; bounds allow for that.
+// The distances of lofts and ellipsoids are estimates, which may be too small. Bounds are enlarged to allow
+// for this.
 constexpr double bound_safety = 0.5;
 
 bool out_of_reach(const Vec3& point_m, const Vec3& centre_m, double radius_m, double limit_m) {
@@ -99,7 +100,7 @@ BodySdf::BodySdf() {
 }
 
 double BodySdf::distance(const Vec3& point_m) const {
-  // The rounded mirror keeps the seam between the halves smooth.
+  // Rounds |x| near 0, so that the seam between the mirrored halves is smooth.
   constexpr double seam_m = 0.004;
   const Vec3 folded(std::sqrt(point_m.x * point_m.x + seam_m * seam_m), point_m.y, point_m.z);
   double result = 10.0;
@@ -126,7 +127,7 @@ Vec3 BodySdf::project(const Vec3& point_m) const {
     }
     const Vec3 g = gradient(p);
     const Vec3 move = g * (d / std::max(glm::dot(g, g), 0.05));
-    // A bounded step keeps a point from jumping to another finger.
+    // The step length is limited, so that a point cannot jump to another finger.
     constexpr double longest_m = 0.004;
     p -= move * std::min(1.0, longest_m / std::max(glm::length(move), 1e-12));
   }
@@ -135,7 +136,7 @@ Vec3 BodySdf::project(const Vec3& point_m) const {
 
 namespace {
 
-/// A section of the torso: half width, reach to the front and to the back of a centre at depth `z_m`.
+/// Returns a section of the torso. Front and back are measured from a centre at depth `z_m`.
 LoftSection slice(double y_m, double half_width_m, double front_m, double back_m, double z_m = 0.0) {
   return {y_m, 0.0, z_m, half_width_m, half_width_m, front_m, back_m};
 }
@@ -154,7 +155,7 @@ Part make_torso() {
                   slice(1.465, 0.085, 0.030, 0.086)},
                  0.020, 2.3),
             0.03);
-  // Pectorals, and the chest's side under the arm.
+  // Pectorals, and the side of the chest under the arm.
   torso.add(Ellipsoid{Vec3(0.078, 1.338, 0.072), Vec3(0.086, 0.060, 0.040),
                       axes_from(Vec3(0.95, 0.20, -0.32), y_axis)},
             0.030);
@@ -164,7 +165,7 @@ Part make_torso() {
   torso.add(Ellipsoid{Vec3(0.088, 1.370, -0.093), Vec3(0.060, 0.078, 0.030),
                       axes_from(Vec3(0.95, 0.0, 0.30), y_axis)},
             0.040);
-  // Trapezius down to the shoulder, and the shoulder girdle under it.
+  // Trapezius down to the shoulder, and the shoulder girdle below.
   torso.add(RoundCone{Vec3(0.016, 1.510, -0.046), Vec3(0.148, 1.452, -0.034), 0.031, 0.030}, 0.045);
   torso.add(RoundCone{Vec3(0.060, 1.425, -0.020), Vec3(0.182, 1.424, -0.020), 0.045, 0.046}, 0.045);
   // Collar bone.
@@ -175,10 +176,10 @@ Part make_torso() {
   torso.add(Ellipsoid{Vec3(0.076, 0.897, -0.060), Vec3(0.078, 0.084, 0.064),
                       axes_from(Vec3(0.97, 0.12, -0.2), y_axis)},
             0.030);
-  // Straight belly muscles, under the arch of the ribs.
+  // Straight abdominal muscles, under the arch of the ribs.
   torso.add(RoundCone{Vec3(0.036, 1.225, 0.074), Vec3(0.030, 0.960, 0.072), 0.031, 0.024}, 0.026);
   torso.carve(RoundCone{Vec3(0.062, 1.190, 0.118), Vec3(0.128, 1.105, 0.082), 0.012, 0.014}, 0.040);
-  // Furrows of the spine and between the belly muscles.
+  // Furrows along the spine and between the abdominal muscles.
   torso.carve(RoundCone{Vec3(0.0, 1.380, -0.142), Vec3(0.0, 1.090, -0.098), 0.012, 0.014}, 0.035);
   torso.carve(RoundCone{Vec3(0.0, 1.300, 0.122), Vec3(0.0, 1.080, 0.112), 0.007, 0.006}, 0.024);
   return torso;
@@ -186,11 +187,11 @@ Part make_torso() {
 
 Part make_head() {
   Part head(0.022);
-  // Neck, leaning forward, with the muscle that runs from behind the ear to the collar bone.
+  // The neck leans forward. Its muscle runs from behind the ear to the collar bone.
   head.add(RoundCone{Vec3(0.0, 1.420, -0.040), Vec3(0.0, 1.590, -0.010), 0.059, 0.053}, 0.02);
   head.add(RoundCone{Vec3(0.056, 1.595, -0.022), Vec3(0.016, 1.440, 0.034), 0.013, 0.009}, 0.022);
   head.add(RoundCone{Vec3(0.0, 1.552, 0.036), Vec3(0.0, 1.520, 0.026), 0.012, 0.010}, 0.020);
-  // Skull and face; the face's front profile is the loft's forward reach.
+  // Skull and face. The front reach of the loft's sections is the profile of the face.
   head.add(Ellipsoid{Vec3(0.0, 1.662, -0.008), Vec3(0.0765, 0.088, 0.097)}, 0.03);
   head.add(Loft(Vec3(0.0), x_axis, z_axis, y_axis,
                 {slice(1.526, 0.022, 0.046, 0.022, 0.042), slice(1.540, 0.034, 0.060, 0.035, 0.036),
@@ -244,7 +245,7 @@ Part make_leg() {
                 {0.075, 0.112, -0.030, 0.031, 0.030, 0.036, 0.034}},
                0.015),
           0.03);
-  // Teardrop muscles over the knee, knee cap, tendon under it.
+  // Teardrop muscles above the knee, knee cap, tendon below.
   leg.add(Ellipsoid{Vec3(0.075, 0.580, 0.040), Vec3(0.026, 0.056, 0.026)}, 0.030);
   leg.add(Ellipsoid{Vec3(0.133, 0.610, 0.038), Vec3(0.024, 0.062, 0.026)}, 0.030);
   leg.add(Ellipsoid{Vec3(0.104, 0.497, 0.041), Vec3(0.024, 0.031, 0.017)}, 0.020);
@@ -260,7 +261,7 @@ Part make_leg() {
 
 Part make_foot() {
   Part foot(0.022);
-  // The foot turns outwards by eight degrees; the loft runs from heel to toe along the ground.
+  // The foot is turned outwards by eight degrees. The loft runs along the ground from heel to toe.
   const double turn = glm::radians(8.0);
   const Vec3 along(std::sin(turn), 0.0, std::cos(turn)), across(std::cos(turn), 0.0, -std::sin(turn));
   const Vec3 origin(0.112, 0.002, -0.030);
@@ -275,7 +276,8 @@ Part make_foot() {
                  {0.182, -0.004, 0.015, 0.034, 0.036, 0.012, 0.015}},
                 0.022, 2.6),
            0.02);
-  // Toes are rounds at the front edge: the big toe stands off, the others step back one behind the other.
+  // Toes are rounded shapes at the front edge. The big toe is separate from the others, and each further toe
+  // is set back a little more.
   foot.add(RoundCone{origin + along * 0.130 - across * 0.026 + y_axis * 0.018,
                      origin + along * 0.200 - across * 0.026 + y_axis * 0.014, 0.016, 0.0125},
            0.010);
@@ -318,7 +320,7 @@ Part make_arm() {
   const auto at = [&](double along_m, double forward_m, double outward_m) {
     return frame.shoulder_m + frame.along * along_m + frame.forward * forward_m + frame.outward * outward_m;
   };
-  // Deltoid with its three heads, running into the arm.
+  // Deltoid with its three heads, which merges into the arm.
   arm.add(
       Ellipsoid{at(0.020, 0.004, 0.022), Vec3(0.078, 0.050, 0.044), axes_from(frame.along, frame.forward)},
       0.030);
@@ -370,7 +372,7 @@ Part make_hand() {
           RoundCone{finger.joints_m[i], finger.joints_m[i + 1], finger.radii_m[i], finger.radii_m[i + 1]},
           i == 0 ? 0.007 : 0.002);
     }
-    // A knuckle's bulge on the back of the hand.
+    // The bulge of a knuckle on the back of the hand.
     if (&finger != &left_fingers().front()) {
       hand.add(Ellipsoid{finger.joints_m[0] + frame.outward * 0.005, Vec3(0.010, 0.008, 0.007),
                          axes_from(frame.along, frame.forward)},

@@ -7,16 +7,16 @@
 
 namespace nook::mannequin {
 
-/// One mass of the figure and how it joins those before it.
+/// One mass of the figure, and how it is joined to the previous masses.
 struct Mass {
   std::variant<RoundCone, Ellipsoid, Loft> shape;
   double blend_m;
-  bool carved = false;  ///< Whether the mass is taken away instead of added.
+  bool carved = false;  ///< True if the mass is subtracted instead of added.
   Vec3 bound_centre_m{0.0};
   double bound_radius_m = 0.0;
 };
 
-/// Masses that are joined to each other first and to the rest of the figure afterwards.
+/// A group of masses. They are joined to each other first, and then to the rest of the figure.
 class Part {
  public:
   explicit Part(double blend_m) : blend_m_(blend_m) {}
@@ -27,10 +27,10 @@ class Part {
   void carve(const RoundCone& cone, double blend_m);
   void carve(const Ellipsoid& ellipsoid, double blend_m);
 
-  /// Joins this part to a distance that is known already. A part that is too far to matter costs one
-  /// comparison.
+  /// Returns the distance `known_m` of the rest of the figure, joined with this part. If the part is too far
+  /// away to have an effect, the call costs a single comparison.
   double join(double known_m, const Vec3& point_m) const;
-  void close();  ///< Computes the bound. This is called once, after the last mass.
+  void close();  ///< Computes the bounding sphere. Call this once, after the last mass.
 
  private:
   double distance(const Vec3& point_m) const;
@@ -41,8 +41,8 @@ class Part {
   double bound_radius_m_ = 0.0;
 };
 
-/// The signed distance to the skin in metres, negative inside. It is approximate away from the surface and
-/// mirrored in x.
+/// The signed distance to the skin in metres, negative inside. The distance is approximate away from the
+/// skin. The figure is mirrored in x.
 class BodySdf {
  public:
   BodySdf();

@@ -12,8 +12,8 @@ constexpr double forearm_m = 0.250;
 struct FingerPlan {
   const char* name;
   double along_m, forward_m, outward_m;  ///< Knuckle, from the wrist.
-  double fan_deg;                        ///< Turn towards the thumb's side.
-  double dip_deg;                        ///< Turn towards the palm at the knuckle.
+  double fan_deg;                        ///< Angle towards the thumb's side.
+  double dip_deg;                        ///< Angle towards the palm at the knuckle.
   double bend_deg;                       ///< Relaxed bend at each of the other joints.
   double lengths_m[3];
   double radii_m[4];
@@ -114,7 +114,8 @@ int Skeleton::find(std::string_view name) const {
 }
 
 void Skeleton::add(std::string name, std::string_view parent, const Vec3& position_m, const Vec3& tip_m) {
-  // The bone's z turns as far forward as its y allows; bones that point forward turn it up instead.
+  // The bone's z axis points as far forward as its y axis allows. If the bone itself points forward, z points
+  // up instead.
   const Vec3 along = glm::normalize(tip_m - position_m);
   const Vec3 hint = std::abs(along.z) > 0.8 ? Vec3(0.0, 1.0, 0.0) : Vec3(0.0, 0.0, 1.0);
   const Mat3 frame = axes_from(along, hint);

@@ -19,18 +19,19 @@ namespace {
 constexpr double keys_per_second = 24.0;
 constexpr int fewest_keys = 24;
 
-// The file has z up and its own unit. A node above the skeleton turns and scales it into the world, as in
-// files from Blender and Mixamo. So the skinning matrices of the file are not rest-to-world matrices, and a
-// sample that confuses them shows it. A power of two and a quarter turn cost no digit.
+// As in files from Blender and Mixamo, the file has z up and its own unit, and a node above the skeleton
+// rotates and scales it into the world. So the skinning matrices of the file are not rest-to-world matrices,
+// and a sample that confuses the two looks wrong. The scale is a power of two and the rotation a quarter
+// turn, so that no precision is lost.
 constexpr double units_per_metre = 128.0;
 
-/// From model space, y up, to the axes of the file, z up.
+/// Converts from model space (y up) to the axes of the file (z up).
 Vec3 turned(const Vec3& v) {
   return {v.x, -v.z, v.y};
 }
 
-/// The armature's node brings the file's axes and units to the world; the root bone turns the axes back, so
-/// that all other bones keep theirs. The root has no animation, so that it may have a matrix.
+/// The armature node converts the file's axes and units to the world. The root bone rotates the axes back, so
+/// that all other bones keep their model-space axes. The root may have a matrix, because it is not animated.
 const std::vector<double> armature_columns{
     1 / units_per_metre, 0, 0, 0, 0, 0, -1 / units_per_metre, 0, 0, 1 / units_per_metre, 0, 0, 0, 0, 0, 1};
 const std::vector<double> root_columns{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
@@ -142,13 +143,14 @@ void add_mesh(Builder& builder, const TriangleMesh& mesh, const std::vector<Vert
   builder.model().materials.push_back(std::move(material));
 }
 
-/// The offset from the parent in the parent's own axes. The root, which stands in the origin, has no parent.
+/// Returns the offset from the parent, in the parent's own axes. The bone must not be the root, which has no
+/// parent and is at the origin.
 Vec3 local_offset_m(const Skeleton& skeleton, const Bone& bone) {
   const Bone& parent = skeleton.bones()[static_cast<std::size_t>(bone.parent)];
   return glm::conjugate(parent.orientation) * (bone.position_m - parent.position_m);
 }
 
-/// Appends the inverse bind matrix of a bone: from the mesh's axes and units to the bone's.
+/// Appends the inverse bind matrix of a bone. It converts from the axes and units of the mesh to the bone's.
 void append_inverse_bind(std::vector<float>& to, const Bone& bone) {
   const Mat3 turn = glm::transpose(glm::mat3_cast(bone.orientation));
   for (const Vec3& column : {turn[0], -turn[2], turn[1]}) {
@@ -159,8 +161,8 @@ void append_inverse_bind(std::vector<float>& to, const Bone& bone) {
   to.push_back(1.0F);
 }
 
-/// Nodes 0 to n - 1 are the bones in the skeleton's order, node n carries the mesh, node n + 1 is the
-/// armature above both.
+/// Adds the nodes. Nodes 0 to n - 1 are the bones in the skeleton's order. Node n has the mesh. Node n + 1 is
+/// the armature, the parent of the root bone and of node n.
 void add_nodes(Builder& builder, const Skeleton& skeleton) {
   tinygltf::Model& model = builder.model();
   const Pose bind(skeleton);
@@ -216,7 +218,7 @@ void add_animation(Builder& builder, const Skeleton& skeleton, const Clip& clip)
   std::vector<Quat> previous(skeleton.size(), Quat(1.0, 0.0, 0.0, 0.0));
   const auto pelvis_bone = static_cast<std::size_t>(skeleton.find("pelvis"));
   for (int key = 0; key <= intervals; ++key) {
-    // The last key repeats the first, so that a player may wrap without a seam.
+    // The last key equals the first one, so that a player can loop without a jump.
     const double phase = key == intervals ? 0.0 : static_cast<double>(key) / intervals;
     times.push_back(static_cast<float>(clip.duration_s * key / intervals));
     const Pose pose = clip.pose_at(skeleton, phase);
@@ -224,7 +226,8 @@ void add_animation(Builder& builder, const Skeleton& skeleton, const Clip& clip)
                        (local_offset_m(skeleton, skeleton.bones()[pelvis_bone]) + pose.pelvis_shift_m()));
     for (std::size_t i = 0; i < skeleton.size(); ++i) {
       Quat q = pose.local_rotation(static_cast<int>(i));
-      // A rotation has two quaternions. With the one near the previous key, players take the short way.
+      // q and -q are the same rotation. We choose the one closer to the previous key, so that players
+      // interpolate the short way.
       if (glm::dot(q, previous[i]) < 0.0) {
         q = -q;
       }
@@ -251,7 +254,7 @@ void add_animation(Builder& builder, const Skeleton& skeleton, const Clip& clip)
   add_channel(pelvis_bone, "translation", key_times, builder.add_floats(pelvis, TINYGLTF_TYPE_VEC3));
   const int end_times = builder.add_floats({times.front(), times.back()}, TINYGLTF_TYPE_SCALAR, 0, true);
   for (std::size_t i = 1; i < skeleton.size(); ++i) {
-    // Most fingers hold still, for which two keys are enough and take a fraction of the bytes.
+    // Most finger bones do not move. For them, two keys are enough and need only a fraction of the bytes.
     std::vector<float>& keys = rotations[i];
     const bool is_still = std::equal(keys.begin() + 4, keys.end(), keys.begin());
     if (is_still) {

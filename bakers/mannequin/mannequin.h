@@ -1,12 +1,12 @@
-// A character made by code: a human figure with a skeleton, skin weights and eight looping clips (Idle, Walk,
-// Run, Crouch, Sit, Wave, Punch, Dance). Samples and tests use it where a character is needed and no file is
-// given, so that the repository needs no asset.
+// A procedural character: a human figure with a skeleton, skin weights and eight looping clips (Idle, Walk,
+// Run, Crouch, Sit, Wave, Punch, Dance). Samples and tests use it if they need a character and no file is
+// given. So the repository does not have to contain an asset.
 //
-// Begin with make_mannequin_glb at the end of mannequin.cpp, which has the four steps:
-//   bones, pose, motions    the bones in the bind pose, poses as rotations away from it, and motions
+// Start reading at make_mannequin_glb at the end of mannequin.cpp. It shows the four steps:
+//   bones, pose, motions    the bones in the bind pose, poses as rotations away from bind pose, and motions
 //   body_sdf                the body as a signed distance field of lofts and muscles (shape_primitives)
 //   body_mesh, remesher     a closed mesh on that field, with edges of the right length
-//   skin_weights            the weights of bones, spread over the skin
+//   skin_weights            the bones' weights, spread over the skin
 #pragma once
 
 #include <vector>

@@ -9,26 +9,28 @@
 namespace nook::mannequin {
 namespace {
 
-/// One sine wave for each loop, ahead by `lead` loops.
+/// Returns a sine wave with one period per loop. It is ahead by `lead` loops.
 double swing(double phase, double lead = 0.0) {
   return std::sin(2.0 * std::numbers::pi * (phase + lead));
 }
 
-/// Rises to 1 and falls back between two phases, with a rest at the top of `hold` of the whole.
+/// Rises from 0 to 1 and falls back to 0 between the phases `from` and `to`. Stays at 1 for the share `hold`
+/// of this time.
 double pulse(double phase, double from, double to, double hold = 0.2) {
   const double edge = 0.5 * (1.0 - hold) * (to - from);
   return ramp(phase, from, from + edge) * (1.0 - ramp(phase, to - edge, to));
 }
 
-/// A foot's cycle in place: it slides back while it stands and swings forward through the air.
+/// A foot's cycle when walking in place: the foot slides back while it stands, and then swings forward
+/// through the air.
 struct Gait {
   double half_stride_m;
-  double stance;  ///< Part of the cycle spent on the ground.
+  double stance;  ///< Share of the cycle that the foot is on the ground.
   double lift_m;
-  double strike_deg;  ///< Toes up when the heel touches down.
-  double push_deg;    ///< Heel up when the toes leave.
-  double centre_m;    ///< Ahead of the bind pose.
-  double narrow_m;    ///< Towards the middle, since walkers put their feet nearly in line.
+  double strike_deg;  ///< How far the toes are up when the heel touches down.
+  double push_deg;    ///< How far the heel is up when the toes leave the ground.
+  double centre_m;    ///< Offset of the cycle's middle, ahead of the bind pose.
+  double narrow_m;    ///< Offset towards the middle, because people walk with their feet nearly in line.
 };
 
 void step(Pose& pose, Side side, const Gait& gait, double phase) {
@@ -44,7 +46,7 @@ void step(Pose& pose, Side side, const Gait& gait, double phase) {
     plan.pitch_deg = -gait.strike_deg * (1.0 - ramp(t, 0.0, 0.22)) + gait.push_deg * ramp(t, 0.50, 1.06);
   } else {
     const double t = (phase - gait.stance) / (1.0 - gait.stance);
-    // The foot leaves and lands at the ground's speed, so that the knee does not jerk.
+    // The foot leaves and reaches the ground with the speed of the ground, so that the knee does not jerk.
     const double slip = gait.half_stride_m * 2.0 / gait.stance * (1.0 - gait.stance);
     const double eased = 3.0 * t * t - 2.0 * t * t * t;
     const double hermite = (t * t * t - 2.0 * t * t + t) + (t * t * t - t * t);
@@ -88,8 +90,8 @@ Pose pose_idle(const Skeleton& skeleton, double phase) {
 Pose pose_walk(const Skeleton& skeleton, double phase) {
   const Gait gait{0.27, 0.60, 0.055, 20.0, 38.0, -0.02, 0.055};
   Pose pose(skeleton);
-  // The left heel touches down at phase 0, the right one half a cycle later. The body is lowest just after
-  // each.
+  // The left heel touches down at phase 0, and the right heel half a cycle later. The body is lowest just
+  // after each of these moments.
   pose.shift_pelvis({0.016 * swing(phase, -0.05), -0.026 + 0.014 * swing(2.0 * phase, -0.30), 0.0});
   const double lead = swing(phase, 0.25);  // +1 with the left leg ahead
   pose.turn("pelvis", y_axis, -6.0 * lead);
@@ -119,11 +121,11 @@ Pose pose_walk(const Skeleton& skeleton, double phase) {
 }
 
 Pose pose_run(const Skeleton& skeleton, double phase) {
-  // Two strides a loop, since one alone is shorter than a clip should be.
+  // Two strides per loop, because a clip with a single stride would be too short.
   phase = 2.0 * phase - std::floor(2.0 * phase);
   const Gait gait{0.25, 0.34, 0.26, 4.0, 50.0, -0.10, 0.075};
   Pose pose(skeleton);
-  // Lowest in the middle of each stance, highest in flight.
+  // The body is lowest in the middle of each stance, and highest while both feet are in the air.
   pose.shift_pelvis({0.010 * swing(phase), -0.045 + 0.035 * swing(2.0 * phase, -0.59), 0.0});
   const double lead = swing(phase, 0.25);
   pose.turn("pelvis", y_axis, -9.0 * lead);
@@ -183,7 +185,7 @@ Pose pose_crouch(const Skeleton& skeleton, double phase) {
              {bind_ball_m(Side::right) + Vec3(-0.06, 0.0, -0.05), 14.0, 10.0 + 22.0 * deep, 0.45});
   const int chest = skeleton.find("spine_03");
   for (Side side : {Side::left, Side::right}) {
-    // Hands at the ready, between the knees and the chin.
+    // Hands are held ready, between the knees and the chin.
     const double s = sign_of(side);
     const Vec3 wrist(s * 0.13, 1.27 + 0.04 * deep, 0.42 + 0.02 * s * look);
     place_hand(pose, side,
@@ -200,7 +202,7 @@ Pose pose_crouch(const Skeleton& skeleton, double phase) {
 
 Pose pose_sit(const Skeleton& skeleton, double phase) {
   Pose pose(skeleton);
-  // On a seat 0.45 m high; the body rocks forward over the knees and back.
+  // Sits on a seat 0.45 m high. The body rocks forward over the knees and back.
   const double forward = 0.5 - 0.5 * swing(phase, 0.25);
   pose.shift_pelvis({0.0, -0.390, -0.30});
   pose.turn("pelvis", x_axis, -10.0 + 12.0 * forward);
@@ -260,7 +262,7 @@ Pose pose_wave(const Skeleton& skeleton, double phase) {
 
 Pose pose_punch(const Skeleton& skeleton, double phase) {
   Pose pose(skeleton);
-  // A jab with the left, then a cross with the right that turns the whole body.
+  // A jab with the left hand, then a cross with the right hand, which turns the whole body.
   const double jab = pulse(phase, 0.06, 0.40, 0.15), cross = pulse(phase, 0.46, 0.90, 0.15);
   const double bounce = swing(2.0 * phase, 0.25);
   const double turn_deg = -30.0 - 14.0 * jab + 58.0 * cross;
@@ -296,7 +298,7 @@ Pose pose_punch(const Skeleton& skeleton, double phase) {
 
 Pose pose_dance(const Skeleton& skeleton, double phase) {
   Pose pose(skeleton);
-  // The weight goes from foot to foot while the arms trade places overhead.
+  // The weight shifts from foot to foot, while the arms move alternately above the head.
   const double side_step = swing(phase), beat = swing(2.0 * phase, 0.25);
   pose.shift_pelvis({0.075 * side_step, -0.070 - 0.030 * beat, 0.0});
   pose.turn("pelvis", z_axis, 8.0 * side_step);

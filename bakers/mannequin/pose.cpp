@@ -51,14 +51,14 @@ double sign_of(Side side) {
 
 namespace {
 
-/// The part of the hand's roll that the middle of the forearm follows.
+/// The share of the hand's roll that the middle of the forearm follows.
 constexpr double forearm_share = 0.55;
 
 Vec3 mirrored(const Vec3& v, Side side) {
   return {v.x * sign_of(side), v.y, v.z};
 }
 
-/// The rotation that takes one pair of directions to another.
+/// Returns the rotation that turns one pair of directions into another.
 Quat between(const Vec3& from_first, const Vec3& from_second, const Vec3& to_first, const Vec3& to_second) {
   return glm::normalize(
       glm::quat_cast(axes_from(to_first, to_second) * glm::transpose(axes_from(from_first, from_second))));
@@ -68,7 +68,7 @@ Quat about(const Vec3& axis, double angle_deg) {
   return glm::angleAxis(glm::radians(angle_deg), glm::normalize(axis));
 }
 
-/// The part of a rotation that turns about `axis`.
+/// Returns the angle by which a rotation turns about `axis`.
 double twist_deg(const Quat& q, const Vec3& axis) {
   const double along = glm::dot(Vec3(q.x, q.y, q.z), axis);
   double degrees = glm::degrees(2.0 * std::atan2(along, q.w));
@@ -78,7 +78,7 @@ double twist_deg(const Quat& q, const Vec3& axis) {
   return degrees < -180.0 ? degrees + 360.0 : degrees;
 }
 
-/// Makes the bone face `facing` in model space.
+/// Sets the bone's rotation so that its model-space rotation away from the bind pose is `facing`.
 void face(Pose& pose, int bone, const Quat& facing) {
   const int parent = pose.skeleton().bones()[static_cast<std::size_t>(bone)].parent;
   pose.set_turn(bone, glm::normalize(glm::conjugate(pose.facing(parent)) * facing));
@@ -104,13 +104,14 @@ void turn_arm(Pose& pose, Side side, const ArmPlan& plan) {
   const Vec3 bends_to = axes_from(along, mirrored(plan.bends_to, side))[1];
   const Quat upper_facing = chest * between(bind_along, z_axis, along, bends_to);
   face(pose, upper, upper_facing);
-  // Seen from the bind pose the elbow takes the forearm ahead, and a roll turns the hand about the forearm.
+  // Relative to the bind pose, the elbow bends the forearm forward, and a roll turns the hand about the
+  // forearm.
   pose.set_turn(lower, about(glm::cross(bind_along, z_axis), plan.elbow_deg));
   const Quat roll = about(bind_along, s * plan.roll_deg);
   const Quat half_roll = about(bind_along, s * plan.roll_deg * forearm_share);
   pose.set_turn(lower_twist, half_roll);
   pose.set_turn(hand, glm::normalize(roll * about(glm::cross(bind_along, -bind_outward), plan.wrist_deg)));
-  // The shoulder's skin follows the arm's swing but only part of its twist.
+  // The skin of the shoulder follows the arm's swing, but only a part of its twist.
   pose.set_turn(upper_twist, about(bind_along, -0.65 * twist_deg(pose.turn_of(upper), bind_along)));
 }
 
@@ -125,7 +126,7 @@ void curl_finger(Pose& pose, Side side, std::string_view finger, double knuckle_
   }
 }
 
-/// Bends the thumb towards a direction along, out of and across the hand: the arm frame's axes.
+/// Bends the thumb towards a direction. `towards` is in the axes of the arm frame.
 void bend_thumb(Pose& pose, Side side, double root_deg, double other_deg, const Vec3& towards) {
   const ArmFrame left = left_arm_frame();
   const Vec3 way =
@@ -163,7 +164,7 @@ void place_foot(Pose& pose, Side side, const FootPlan& plan) {
   const double upper = glm::length(bind_m(calf) - bind_m(thigh)),
                lower = glm::length(bind_m(foot) - bind_m(calf));
   const Vec3 to_ankle = target_ankle - hip;
-  // A leg that is never quite straight keeps the knee from snapping.
+  // The leg is never fully straight, so that the knee does not snap.
   const double reach = std::clamp(glm::length(to_ankle), 0.25, 0.9985 * (upper + lower));
   const Vec3 down = glm::normalize(to_ankle);
   const Vec3 knee_way = pose.facing(skeleton.find("pelvis")) * mirrored(Vec3(plan.knee_out, 0.0, 1.0), side);
@@ -174,7 +175,7 @@ void place_foot(Pose& pose, Side side, const FootPlan& plan) {
   const Vec3 ankle = hip + down * reach;
 
   face(pose, thigh, between(bind_m(calf) - bind_m(thigh), z_axis, knee - hip, ahead));
-  // The front of the calf continues the front of the thigh, however far the knee bends.
+  // The front of the calf stays in line with the front of the thigh, at any bend of the knee.
   const Vec3 hinge = glm::cross(down, ahead);
   face(pose, calf,
        between(bind_m(foot) - bind_m(calf), z_axis, ankle - knee,
@@ -209,7 +210,7 @@ void place_hand(Pose& pose, Side side, const ReachPlan& plan) {
   const Vec3 upper_way = away * cosine + elbow_to * sine;
   const Vec3 lower_way = (away * reach - upper_way * upper) / lower;
 
-  // The plan's directions are relative to the chest, and outwards is +x on both sides.
+  // Directions of an ArmPlan are relative to the chest, and +x is outwards on both sides.
   const Quat to_chest = glm::conjugate(pose.facing(skeleton.find("spine_03")));
   arm.upper = mirrored(to_chest * upper_way, side);
   arm.bends_to = mirrored(to_chest * lower_way, side);

@@ -8,13 +8,13 @@
 namespace nook::mannequin {
 namespace {
 
-/// A closed triangle manifold that can be edited in place. Half-edge `3 f + k` leaves corner k of face f.
-/// Removed faces stay as dead entries until the mesh is packed.
+/// A closed triangle manifold that can be edited in place. Half-edge `3 f + k` starts at corner k of face f.
+/// Removed faces remain as dead entries. packed() leaves them out.
 class HalfEdgeMesh {
  public:
   using Index = std::uint32_t;
 
-  /// Throws std::runtime_error if some edge does not have exactly two triangles.
+  /// Throws std::runtime_error if an edge does not have exactly two triangles.
   explicit HalfEdgeMesh(const TriangleMesh& mesh);
 
   TriangleMesh packed() const;
@@ -34,7 +34,7 @@ class HalfEdgeMesh {
   const Vec3& position_m(Index v) const { return positions_m_[v]; }
   void move(Index v, const Vec3& position_m) { positions_m_[v] = position_m; }
 
-  /// Calls `visit` with each half-edge that leaves `v`.
+  /// Calls `visit` with each half-edge that starts at `v`.
   template <typename Visit>
   void for_each_leaving(Index v, Visit visit) const {
     const Index first = leaving_[v];
@@ -47,9 +47,11 @@ class HalfEdgeMesh {
   int valence(Index v) const;
 
   void split(Index h, const Vec3& middle_m);
-  /// Turns the edge inside its two triangles. Refuses and changes nothing if the new edge exists already.
+  /// Replaces the edge by the other diagonal of its two triangles. If this edge exists already, changes
+  /// nothing and returns false.
   bool flip(Index h);
-  /// Merges both ends into one vertex. Refuses if that would break the manifold or turn a triangle over.
+  /// Merges both ends of the edge into one vertex. If this would break the manifold, flip a triangle or make
+  /// an edge longer than `longest_edge_m`, changes nothing and returns false.
   bool collapse(Index h, const Vec3& merged_m, double longest_edge_m);
 
  private:
@@ -123,7 +125,7 @@ void HalfEdgeMesh::pair(Index a, Index b) {
 }
 
 void HalfEdgeMesh::split(Index h, const Vec3& middle_m) {
-  // Each of the two triangles gives its far half to a new one.
+  // Each of the two triangles is halved, and one half becomes a new triangle.
   const Index g = twin_[h];
   const Index end = to(h), far_h = opposite(h), far_g = opposite(g);
   const Index h_next = next(h), g_prev = previous(g);
@@ -152,7 +154,7 @@ bool HalfEdgeMesh::flip(Index h) {
     return false;
   }
   const Index bc = twin_[next(h)], ca = twin_[previous(h)], ad = twin_[next(g)], db = twin_[previous(g)];
-  // Face of h becomes d, c, a; face of g becomes c, d, b.
+  // The face of h becomes (d, c, a), and the face of g becomes (c, d, b).
   const Index h1 = next(h), h2 = previous(h), g1 = next(g), g2 = previous(g);
   from_[h] = d;
   from_[h1] = c;
@@ -219,8 +221,8 @@ bool HalfEdgeMesh::collapse(Index h, const Vec3& merged_m, double longest_edge_m
   return true;
 }
 
-// Botsch and Kobbelt's bounds: splitting above and collapsing below them brings an edge nearer to the target
-// length.
+// Botsch and Kobbelt's bounds, relative to the target length. Splitting longer edges and collapsing shorter
+// ones brings their length closer to the target.
 constexpr double split_above = 4.0 / 3.0;
 constexpr double collapse_below = 4.0 / 5.0;
 
@@ -232,8 +234,8 @@ class Remesher {
       : mesh_(dense), sdf_(sdf), edge_length_m_(edge_length_m) {}
 
   TriangleMesh run(int rounds) {
-    // Collapsing in growing steps keeps the triangles fair while the dense mesh shrinks by an order of
-    // magnitude.
+    // The dense mesh shrinks by an order of magnitude. Collapsing edges with a growing target length keeps
+    // the triangles well shaped.
     for (double step : {0.5, 0.75, 1.0}) {
       collapse_short_edges(step);
       even_out_valences();
@@ -245,7 +247,7 @@ class Remesher {
       even_out_valences();
       relax(true);
     }
-    // The valences have settled, and the last rounds open the narrow angles that are left.
+    // Valences hardly change any more. The last rounds open the remaining narrow angles.
     for (int round = 0; round < 4; ++round) {
       open_narrow_angles();
       relax(true);
@@ -308,7 +310,7 @@ class Remesher {
     return flipped < now - 1e-6;
   }
 
-  /// The cosine of the triangle's narrowest angle.
+  /// Returns the cosine of the triangle's smallest angle.
   static double largest_cosine(const Vec3& a, const Vec3& b, const Vec3& c) {
     const Vec3 ab = glm::normalize(b - a), bc = glm::normalize(c - b), ca = glm::normalize(a - c);
     return std::max({-glm::dot(ab, ca), -glm::dot(bc, ab), -glm::dot(ca, bc)});
@@ -350,8 +352,8 @@ class Remesher {
     }
   }
 
-  // The mean of the surrounding triangles' centres, weighted by their area over the target area, kept in the
-  // tangent plane so that the figure does not shrink.
+  // Returns the mean of the centres of the surrounding triangles, weighted by their area relative to the
+  // target area. The vertex moves only in its tangent plane, so that the figure does not shrink.
   Vec3 relaxed(Index v) const {
     const Vec3 p = mesh_.position_m(v);
     Vec3 sum(0.0), normal(0.0);

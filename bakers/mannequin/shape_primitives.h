@@ -12,14 +12,14 @@ using Mat3 = glm::dmat3;
 
 inline const Vec3 x_axis(1, 0, 0), y_axis(0, 1, 0), z_axis(0, 0, 1);
 
-/// Joins two distances with a fillet about `blend_m` wide; equal to min() where they differ by more than
-/// that.
+/// Joins two distances with a fillet about `blend_m` wide. Equals min() if the distances differ by more than
+/// `blend_m`.
 double smooth_min(double a_m, double b_m, double blend_m);
 
-/// Carves distance `b_m` out of `a_m` with a rounded rim.
+/// Subtracts the body with distance `b_m` from the body with distance `a_m`, with a rounded rim.
 double smooth_subtract(double a_m, double b_m, double blend_m);
 
-/// A capsule whose two ends have radii of their own.
+/// A capsule with a different radius at each end.
 struct RoundCone {
   Vec3 start_m;
   Vec3 end_m;
@@ -29,7 +29,7 @@ struct RoundCone {
   double distance(const Vec3& point_m) const;
 };
 
-/// An ellipsoid; the columns of `axes` are its orthonormal half-axes' directions.
+/// An ellipsoid. The columns of `axes` are the orthonormal directions of its semi-axes.
 struct Ellipsoid {
   Vec3 centre_m;
   Vec3 radii_m;
@@ -38,18 +38,18 @@ struct Ellipsoid {
   double distance(const Vec3& point_m) const;
 };
 
-/// One cross-section of a loft. Its outline is made of four quarter ellipses, so that each side has its own
-/// reach.
+/// One cross-section of a loft. Its outline consists of four quarter ellipses, so that each of the four sides
+/// can have its own radius.
 struct LoftSection {
   double along_m;
   double centre_u_m, centre_v_m;
   double plus_u_m, minus_u_m, plus_v_m, minus_v_m;
 };
 
-/// A body swept along the axis `w` through sections that are interpolated by a cubic spline.
+/// A body along the axis `w`. A cubic spline interpolates between its cross-sections.
 class Loft {
  public:
-  /// `squareness` is the exponent of the outline: 2 is elliptic, larger is boxier.
+  /// `squareness` is the exponent of the outline: 2 is elliptic, larger values are more like a box.
   Loft(const Vec3& origin_m, const Vec3& u, const Vec3& v, const Vec3& w, std::vector<LoftSection> sections,
        double cap_m, double squareness = 2.0);
 
@@ -71,11 +71,11 @@ class Loft {
   double bound_radius_m_ = 0.0;
 };
 
-/// Rotation whose columns are the given directions made orthonormal: `first` is kept, `second` is bent
-/// towards it.
+/// Returns a rotation matrix. Its first column is the direction of `first`. Its second column is `second`,
+/// made perpendicular to `first`.
 Mat3 axes_from(const Vec3& first, const Vec3& second);
 
-/// Rises smoothly from 0 at `from` to 1 at `to`, and stays there on either side.
+/// Rises smoothly from 0 at `from` to 1 at `to`. Constant outside this range.
 inline double ramp(double x, double from, double to) {
   const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
   return t * t * (3.0 - 2.0 * t);

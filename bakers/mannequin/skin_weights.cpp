@@ -11,15 +11,16 @@
 namespace nook::mannequin {
 namespace {
 
-/// The weights of a point in the bind pose before any smoothing.
+/// The weights of a point in the bind pose, before the blur.
 struct WeightSeed {
   struct Share {
     int bone;
     double weight;
   };
   std::vector<Share> shares;  ///< Sums to one.
-  double spread_m;  ///< How far weights blend into each other here: about the thickness of the flesh.
-  int finger = -1;  ///< Index in left_fingers() on a finger; weights never pass from one finger to another.
+  double spread_m;            ///< Blur radius: about the thickness of the flesh.
+  int finger = -1;  ///< Index in left_fingers(), -1 if the point is not on a finger. Weights never spread
+                    ///< from one finger to another.
 };
 
 double distance_to_segment_m(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -28,7 +29,8 @@ double distance_to_segment_m(const Vec3& p, const Vec3& a, const Vec3& b) {
   return glm::length(p - a - ab * t);
 }
 
-/// Seeds for a point folded to the left side; `side` names the side it came from.
+/// Makes the seed for a point. Points on the right side are mirrored to the left first; `side` is the
+/// original side.
 class Seeder {
  public:
   Seeder(const Skeleton& skeleton, const Vec3& folded_m, std::string side)
@@ -41,7 +43,7 @@ class Seeder {
   WeightSeed seed() {
     const double along_m = glm::dot(p_ - arm_.shoulder_m, arm_.along);
     const Vec3 off = p_ - arm_.shoulder_m - arm_.along * along_m;
-    // Near the body the arm begins at a plane that leans from the shoulder's top into the arm pit.
+    // Near the body, the arm begins at a plane that slants from the top of the shoulder to the armpit.
     const double start_m = 0.012 + 0.25 * glm::dot(off, arm_.outward);
     if (along_m > start_m && glm::length(off) < (along_m < 0.4 ? 0.095 : 0.16)) {
       if (glm::dot(p_ - arm_.wrist_m, arm_.along) > 0.0) {
@@ -49,7 +51,8 @@ class Seeder {
       }
       return arm(along_m);
     }
-    // The groin's crease climbs from the crotch to the hip bone, less steeply at the back under the glutes.
+    // The crease of the groin rises from the crotch to the hip bone. It is less steep at the back, under the
+    // glutes.
     const double steepness = glm::mix(0.62, 1.05, ramp(p_.z, -0.08, 0.05));
     const double crease_m = leg_.hip_m.y + steepness * (p_.x - leg_.hip_m.x);
     if (p_.y < crease_m && p_.y < 0.99) {
@@ -70,7 +73,7 @@ class Seeder {
     const double elbow_m = glm::length(arm_.elbow_m - arm_.shoulder_m);
     const double wrist_m = glm::length(arm_.wrist_m - arm_.shoulder_m);
     if (along_m < elbow_m) {
-      // The twist bone stays behind when the arm turns about itself, so it owns the shoulder's end.
+      // The twist bone turns less than the arm when the arm twists, so it moves the end at the shoulder.
       const double turned = ramp(along_m, 0.03, 0.20);
       return {{{bone("upperarm_twist_01"), 1.0 - turned}, {bone("upperarm"), turned}},
               glm::mix(0.042, 0.022, ramp(along_m, 0.05, 0.18))};
@@ -97,7 +100,7 @@ class Seeder {
       }
     }
     const bool is_thumb = owner_finger == 0;
-    // The palm's flesh and the webs between the fingers reach past the knuckles' joints.
+    // The flesh of the palm and the webs between the fingers extend beyond the knuckle joints.
     const bool in_palm = owner.find("_01") != std::string::npos && past(owner.c_str()) < 0.010;
     const double spread_m = is_thumb ? 0.0075 : 0.0052;
     if (in_palm || nearest_m > 0.008) {
@@ -120,7 +123,7 @@ class Seeder {
   }
 
   WeightSeed torso() const {
-    // The chin turns with the head, the nape with the neck.
+    // The chin turns with the head, and the nape turns with the neck.
     const double head_m = p_.y - (1.560 - 0.45 * p_.z);
     const double neck_m = p_.y - (1.475 - 0.45 * p_.z) - 0.10 * p_.x;
     if (head_m > -0.03) {
@@ -156,13 +159,14 @@ WeightSeed seed_at(const Vec3& point_m, const Skeleton& skeleton) {
   return Seeder(skeleton, folded, point_m.x < 0.0 ? "_r" : "_l").seed();
 }
 
-/// One weight for each vertex and bone, vertex by vertex.
+/// One weight per vertex and bone, vertex by vertex.
 using Table = std::vector<double>;
 
-// One implicit diffusion step decays exponentially; a second one rounds its cusp into a smooth S.
+// After one implicit diffusion step, weights decay exponentially from a sharp edge. A second step makes the
+// transition a smooth S curve.
 constexpr int steps = 2;
 constexpr int sweeps = 50;
-// Weaker influences are cut, so that the reach of a joint ends.
+// Smaller weights are removed, so that each joint affects only a limited area.
 constexpr double faintest = 0.012;
 
 Table seed_table(const std::vector<WeightSeed>& seeds, const Skeleton& skeleton) {
@@ -175,7 +179,7 @@ Table seed_table(const std::vector<WeightSeed>& seeds, const Skeleton& skeleton)
   return table;
 }
 
-/// Solves (1 + spread² L) w = seeds by Gauss-Seidel sweeps, L being the graph Laplacian over squared edge
+/// Solves (1 + spread² L) w = seeds by Gauss-Seidel sweeps. L is the graph Laplacian divided by squared edge
 /// lengths.
 Table spread(const Table& from, const TriangleMesh& mesh, const std::vector<WeightSeed>& seeds,
              std::size_t bones) {
@@ -192,7 +196,8 @@ Table spread(const Table& from, const TriangleMesh& mesh, const std::vector<Weig
         }
         const Vec3 edge = mesh.positions_m[n] - mesh.positions_m[v];
         const double reach = std::min(seeds[v].spread_m, seeds[n].spread_m);
-        // In the plane a vertex has about six neighbours, and their mean differs by a quarter of L h².
+        // In the plane, a vertex has about six neighbours. The mean of their values differs from the vertex's
+        // value by a quarter of L h².
         const double pull = 4.0 / static_cast<double>(neighbours[v].size()) * reach * reach /
                             glm::dot(edge, edge) / static_cast<double>(steps);
         total += pull;
@@ -216,7 +221,7 @@ VertexWeights strongest(const double* weights, std::size_t bones) {
   std::partial_sort(order.begin(), order.begin() + 4, order.end(), [&](std::uint16_t a, std::uint16_t b) {
     return weights[a] != weights[b] ? weights[a] > weights[b] : a < b;
   });
-  // Subtracting the floor rather than testing against it lets influences fade in from zero.
+  // We subtract `faintest` instead of comparing with it, so that weights fade in from zero.
   std::array<double, 4> kept{};
   double total = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {

@@ -9,16 +9,16 @@
 
 namespace nook::mannequin {
 
-/// Up to four bones that move a vertex. The weights fall from the first to the last and sum to one. Unused
-/// slots are zero.
+/// Up to four bones that move a vertex. The weights are in descending order and sum to one. Unused entries
+/// are zero.
 struct VertexWeights {
   std::array<std::uint16_t, 4> bones{};
   std::array<float, 4> weights{};
 };
 
-/// Seeds every vertex with the bones of its stretch of the body and lets the seeds spread over the skin, as
-/// far as the body is thick there. Spreading runs along the surface, so it never jumps from finger to finger
-/// or from arm to chest.
+/// Assigns to every vertex the bones of its part of the body, and then blurs these weights over the skin. The
+/// blur radius is about the thickness of the body at the vertex. The blur follows the surface, so weights
+/// never jump from finger to finger or from arm to chest.
 std::vector<VertexWeights> make_skin_weights(const TriangleMesh& mesh, const Skeleton& skeleton);
 
 }  // namespace nook::mannequin
