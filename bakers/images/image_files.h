@@ -21,10 +21,10 @@ void check_image_size(const char* what, int width, int height, std::size_t max_t
 // Checks the header of an EXR file before a library reads it. This is necessary because OpenEXR allocates the
 // size that an attribute claims, up to 2 GB, before it checks that the file is that long.
 
-// Throws Failure(NOOK_ERROR_BAD_FILE) if `path` begins like an EXR file but its header is invalid: an
-// attribute is longer than the rest of the file, the size of an attribute does not match its type, or the
-// header declares more rows than the file can hold. The message begins with `what`. Files of other formats,
-// and files that cannot be opened, pass this check. Their reader reports the error.
+// Throws Failure(NOOK_ERROR_BAD_FILE) if `path` begins like an EXR file but its header is invalid. A header
+// is invalid if an attribute is longer than the rest of the file, or if its size does not match its type. It
+// is also invalid if it declares more rows than the file can hold. The message begins with `what`. Files of
+// other formats, and files that cannot be opened, pass this check. Their reader reports the error.
 void check_exr_head(const char* what, const std::filesystem::path& path);
 
 }  // namespace nook::bake

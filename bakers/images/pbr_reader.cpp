@@ -176,8 +176,8 @@ namespace fs = std::filesystem;
 
 // 8192 x 8192. Three channels of floats then take 0.8 GB.
 constexpr std::size_t most_texels = std::size_t{1} << 26;
-// The minimum cosine of the angle between a normal and the plane's normal. Normals that are tilted further
-// are noise in the image.
+// The minimum cosine between a normal and the plane's normal. Normals that are tilted further are noise in
+// the image.
 constexpr float least_upright = 0.1f;
 
 struct MapImage {

@@ -169,7 +169,7 @@ struct Size {
   bool operator==(const Size&) const = default;
 };
 
-// A part of an image, in texels from the upper left corner.
+// A part of an image. Texels are counted from the upper left corner.
 struct Region {
   int left = 0, top = 0;
   Size size;

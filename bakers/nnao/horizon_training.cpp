@@ -25,7 +25,7 @@ Vec3 rounded_normal(Vec3 normal, Random& random) {
                                   random.between(-reach, reach)});
 }
 
-// The loss of two outputs, and its gradient with respect to each of them.
+// The loss of two outputs, and its gradient for each of them.
 struct PairLoss {
   float loss = 0, g_one = 0, g_two = 0;
 };
@@ -174,9 +174,9 @@ double horizon_step_gradient(const Dataset& data, const TrainingSettings& settin
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the minibatch has no whole blocks (got %zu points, need a multiple of %d)", points.size(),
                   lane_count);
-  // The grids for 9, 16 and 64 taps, and a grid with the 16 steps of 256 taps, but only 4 directions. The
-  // number of directions affects only the noise. The smallest grid is drawn twice as often as the others,
-  // because it has the largest error.
+  // We train on the grids for 9, 16 and 64 taps. A fourth grid has the 16 steps of 256 taps, but only 4
+  // directions. The number of directions affects only the noise. The smallest grid is drawn twice as often as
+  // the others, because it has the largest error.
   constexpr TapGrid grids[] = {{3, 3}, {3, 3}, {4, 4}, {8, 8}, {4, 16}};
   const TapGrid grid = grids[Random(step_seed).below(std::size(grids))];
   const std::size_t blocks = points.size() / lane_count, count = horizon_parameter_count();

@@ -6,7 +6,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// The skin of a limb or a trunk about the frame's y axis: a radius for each height and angle.
+// The skin of a limb or a trunk. It has a radius for each height and angle about the frame's y axis.
 struct Skin {
   float length, waist, swell, flat;
   std::uint64_t seed;
@@ -39,7 +39,8 @@ void add_plate(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, float 
   }
 }
 
-// Adds bands of plates. Each band overlaps the band below, as on the skirt of a breastplate or on an insect.
+// Adds bands of plates. Each band covers the upper edge of the band below, like the skirt of a breastplate or
+// the body of an insect.
 void add_lames(TriangleSoup& soup, const Mat3x4& frame, const Skin& skin, Random& random) {
   const int bands = random.whole(3, 12), across = random.whole(1, 5);
   const float overlap = random.between(0.05f, 0.5f), flare = skin.waist * random.between(0.03f, 0.2f),

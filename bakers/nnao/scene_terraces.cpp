@@ -4,7 +4,7 @@
 namespace nook::bake::nnao {
 namespace {
 
-// The height of a landscape as a function of x and z in [-1, 1].
+// A landscape. Its height is a function of x and z in [-1, 1].
 struct Land {
   std::uint64_t seed;
   float scale, tall, terrace;  // `terrace` is the height of a step; 0: no steps

@@ -104,7 +104,7 @@ struct Plane {
   }
 };
 
-// The exemplar at one level, used for the plane of the same level.
+// The exemplar at one level. The plane of the same level uses it.
 struct Level {
   ExemplarShape shape;
   std::int32_t spacing = 1;
@@ -203,9 +203,10 @@ float difference(const Surroundings& wanted, const Level& level, Texel candidate
 // choose texels with the wrong surroundings.
 constexpr float seam_weight = 4;
 
-// Measures the visible seams between a candidate and its four neighbours in the plane. If a neighbour in the
-// plane is not also the candidate's neighbour in the exemplar, compares the texel that each of the two shows
-// with the texel that continues the other one's piece of the exemplar.
+// Measures the visible seams between a candidate and its four neighbours in the plane. There is no seam if
+// the neighbour in the plane is also the neighbour in the exemplar. Otherwise, compares the neighbour with
+// the texel that continues the candidate's piece of the exemplar, and the candidate with the texel that
+// continues the neighbour's piece.
 float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
   constexpr std::array<Texel, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   const ExemplarShape& s = level.shape;
@@ -222,8 +223,8 @@ float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
   return sum;
 }
 
-// Returns the best candidate for p. Each of the 3 x 3 texels around p proposes two candidates: the texel that
-// continues its own piece of the exemplar to p, and the texel that continues the most similar piece.
+// Returns the best candidate for p. Each of the 3 x 3 texels around p proposes two candidates. One continues
+// its own piece of the exemplar to p, and the other one continues the most similar piece.
 Texel corrected(const Plane& plane, const Level& level, Texel p) {
   const Surroundings wanted = surroundings(plane, level, p);
   Texel best = plane.at(p);

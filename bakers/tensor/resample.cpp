@@ -13,7 +13,7 @@ namespace {
 
 using Eigen::Index;
 
-// The two cells at a border, each with the cell behind it. The factors extrapolate from these cells to the
+// A border with its two cells, and the cells behind them. The factors extrapolate from these cells to the
 // border, as decoding does. If the cell behind mixes other clusters, its factor is 0, and the value stays
 // constant up to the border.
 struct Border {
