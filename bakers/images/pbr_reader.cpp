@@ -231,7 +231,7 @@ MapImage read_image(const fs::path& path, bool needs_colour) {
   return image;
 }
 
-// Averages `count` numbers per texel.
+// Averages `count` values per texel over the cells of the grid.
 std::vector<float> averages(const MapImage& image, std::uint32_t side, std::uint32_t count,
                             const std::function<void(std::size_t texel, float* numbers)>& numbers_of) {
   TileFilter filter(image.side, image.side, side, count);

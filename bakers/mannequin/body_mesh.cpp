@@ -95,7 +95,7 @@ class Marcher {
     }
     const int half = size / 2;
     const Vec3 centre_m = position_m(low + Corner{half, half, half});
-    // The distance is an estimate, hence the margin over the half diagonal.
+    // The margin over the half diagonal is necessary because the distance is an estimate.
     constexpr double margin = 1.8;
     if (std::abs(sdf_.distance(centre_m)) > margin * std::sqrt(3.0) * half * cell_m_ && size < 64) {
       return;

@@ -11,7 +11,7 @@ constexpr double forearm_m = 0.250;
 
 struct FingerPlan {
   const char* name;
-  double along_m, forward_m, outward_m;  ///< Knuckle, from the wrist.
+  double along_m, forward_m, outward_m;  ///< Position of the knuckle, relative to the wrist.
   double fan_deg;                        ///< Angle towards the thumb's side.
   double dip_deg;                        ///< Angle towards the palm at the knuckle.
   double bend_deg;                       ///< Relaxed bend at each of the other joints.

@@ -44,8 +44,8 @@ class Builder {
     model_.buffers.emplace_back();
   }
 
-  /// Appends tightly packed components. `bounds` adds the minimum and maximum that glTF requires of some
-  /// accessors.
+  /// Appends tightly packed components. If `bounds` is true, also stores the minimum and maximum, which glTF
+  /// requires for some accessors.
   template <typename Component>
   int add_accessor(const std::vector<Component>& values, int component_type, int type, int target,
                    bool bounds) {

@@ -152,7 +152,7 @@ void place_foot(Pose& pose, Side side, const FootPlan& plan) {
   const int foot = skeleton.find(sided("foot", side)), ball = skeleton.find(sided("ball", side));
   const auto bind_m = [&](int bone) { return skeleton.bones()[static_cast<std::size_t>(bone)].position_m; };
 
-  // The foot rolls over the ball while the heel is up, or over the heel while the toes are up.
+  // If the heel is up, the foot rolls over its ball. If the toes are up, it rolls over its heel.
   const Quat yaw = about(y_axis, plan.yaw_deg * sign_of(side));
   const Quat pitch = about(x_axis, plan.pitch_deg);
   const Vec3 flat_ball = bind_ball_m(side);

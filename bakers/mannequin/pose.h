@@ -75,7 +75,7 @@ struct ArmPlan {
 };
 void place_arm(Pose& pose, Side side, const ArmPlan& plan);
 
-/// Where a hand goes, in model space.
+/// Where a hand is placed, in model space.
 struct ReachPlan {
   Vec3 wrist_m;
   Vec3 elbow_to;      ///< The direction in which the elbow points.

@@ -35,7 +35,7 @@ struct DataPoint {
   std::uint16_t x = 0, y = 0;
   Vec3 normal;          // from the G-buffer, view space
   float radius = 0;     // metres; never more than max_radius_px on the screen
-  float ao = 1;         // ray-traced AO around the triangle's normal, with rays as long as the radius
+  float ao = 1;         // AO traced around the triangle's normal; rays are as long as the radius
   Vec3 open_direction;  // view space: mean direction of the rays that hit nothing, see trace_openness
 };
 

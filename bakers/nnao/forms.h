@@ -36,7 +36,7 @@ PaperNormalisation paper_normalisation(const Dataset& data);
 void export_paper(std::span<const float> parameters, const PaperNormalisation& normalisation,
                   nook::nnao::PaperNetwork& network);
 
-// The counterpart of horizon_step_gradient, for any number of points.
+// Does the same as horizon_step_gradient, for the paper form. The number of points may be arbitrary.
 double paper_step_gradient(const Dataset& data, const PaperNormalisation& normalisation,
                            const TrainingSettings& settings, std::span<const float> parameters,
                            std::span<const std::uint32_t> points, std::uint64_t step_seed,

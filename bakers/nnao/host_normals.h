@@ -20,7 +20,7 @@ struct Places {
 };
 Places weld(std::span<const Vec3> positions);
 
-// The largest angle between a host's normal and the triangle's is 25 degrees, in radians.
+// The maximum angle between a host's normal and the triangle's normal: 25 degrees, in radians.
 inline constexpr float max_normal_tilt = 0.436332f;
 
 class HostNormals {

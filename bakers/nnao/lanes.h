@@ -108,7 +108,7 @@ NOOK_INLINE void gated_forward(const float* layer, const Number* input, const Nu
   }
 }
 
-// Adds the gradient of the layer's numbers to `gradient`, and sets the gradient of the inputs.
+// Adds the gradient of the layer's parameters to `gradient`, and sets the gradient of the inputs.
 template <int inputs, int gates, int units, class Number>
 NOOK_INLINE void gated_backward(const float* layer, const Number* input, const Number* gate,
                                 const Number* sums, const Number* output_gradient, Number* gradient,

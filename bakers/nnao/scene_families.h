@@ -59,7 +59,7 @@ TrainingScene make_scene(std::uint64_t seed, std::uint32_t index);
 void add_guests(TrainingScene& host, const TrainingScene& guest, Random& random);
 void scale_scene(TrainingScene& scene, float factor);
 
-// Pieces that several families use.
+// Objects that several families use.
 void add_floor(TriangleSoup& soup, float half_width);
 void add_table(TriangleSoup& soup, const Mat3x4& frame, Random& random);
 void add_chair(TriangleSoup& soup, const Mat3x4& frame, Random& random);

@@ -27,7 +27,8 @@ void add_truss(TriangleSoup& soup, Vec3 from, Vec3 to, float height, float rod, 
   }
 }
 
-// A pipe along x with flanges, valves and hangers below y.
+// Adds a pipe along x with flanges, valves, bends and hangers. `ceiling` is the height of the hangers' upper
+// ends above the pipe.
 void add_pipe_run(TriangleSoup& soup, const Mat3x4& frame, float length, float radius, float ceiling,
                   Random& random) {
   const auto at = [&](float x, float y, float z) { return transform_point(frame, {x, y, z}); };

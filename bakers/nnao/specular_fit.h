@@ -43,7 +43,7 @@ SpecularSamples trace_specular_samples(const nook::nnao::Network& network,
 nook::nnao::SpecularNumbers fit_specular(const std::vector<SpecularSample>& samples,
                                          const SpecularFitSettings& settings);
 
-// Mean squared errors over the samples with the network's AO.
+// Mean squared errors over all samples, evaluated with the network's AO.
 struct SpecularError {
   double fitted = 0;
   double lagarde = 0;  // of lagarde_occlusion with the same AO

@@ -59,7 +59,7 @@ struct TrainingProgress {
   std::size_t steps_done = 0, steps = 0;  // over all epochs
   double validation_mse = 0;              // after the last finished epoch, at 64 taps; 0 before
 };
-// Return false to stop after the step.
+// Called after every step. Return false to stop.
 using OnTraining = std::function<bool(const TrainingProgress&)>;
 
 // Called after every epoch.
@@ -85,7 +85,8 @@ inline constexpr ContainerKind checkpoint_kind{four_letters("NNCP"), "training c
 // recipe.
 std::vector<std::byte> write_checkpoint(const TrainingState& state, std::string_view recipe);
 
-// Throws Failure(NOOK_ERROR_BAD_FILE), also if the recipe or the number of parameters differs.
+// Throws Failure(NOOK_ERROR_BAD_FILE) if the file is invalid, or if its recipe or number of parameters
+// differs.
 TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view recipe, NetworkForm form);
 
 }  // namespace nook::bake::nnao

@@ -32,7 +32,7 @@ inline constexpr float uniform_share = 0.5f;
 Samples luminance_samples(const Environment& map, const LightSampler& sampler, const Region& region,
                           std::size_t count, std::uint64_t seed);
 
-// Takes every texel of the region once, in random order, weighted by its solid angle.
+// Returns every texel of the region once, in random order, weighted by its solid angle.
 Samples texel_samples(const Environment& map, const Region& region, std::uint64_t seed);
 
 enum class Sampling : std::uint8_t {
@@ -51,7 +51,7 @@ struct MapBakeSettings {
   std::uint64_t seed = 1;
 };
 
-// Returns the samples for a bake.
+// Draws the samples for a bake, as chosen by settings.sampling.
 Samples bake_samples(const Environment& map, const MapBakeSettings& settings);
 
 // Returns one coefficient per basis function. `progress` counts samples. If it returns false, bake_map throws

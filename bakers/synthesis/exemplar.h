@@ -58,7 +58,7 @@ struct ExemplarShape {
     return {std::clamp(t.x, margin, width - 1 - margin), std::clamp(t.y, margin, height - 1 - margin)};
   }
   bool is_shown(Texel t) const { return is_tiling || shown(t) == t; }
-  // Returns the texel's row in matrices. The texel must lie inside.
+  // Returns the texel's row in matrices. The texel must be inside the exemplar.
   Eigen::Index row(Texel t) const { return Eigen::Index(t.y) * width + t.x; }
   Eigen::Index texels() const { return Eigen::Index(width) * height; }
 };

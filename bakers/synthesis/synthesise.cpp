@@ -17,7 +17,7 @@ namespace {
 using tensor::Matrix;
 
 constexpr Eigen::Index rows_of_task = 256;
-// Limits the comparisons for a large exemplar.
+// The maximum number of comparisons. It limits the time for a large exemplar.
 constexpr double max_pairs = 1.5e9;
 constexpr Eigen::Index max_candidates = 16384, fewest_candidates = 1024;
 

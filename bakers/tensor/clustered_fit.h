@@ -29,7 +29,7 @@ struct ClusteredSettings {
   // The initial cluster of each mode-m sub-tensor, see tensor/seed_clusters.h. No cluster may be empty.
   std::vector<std::uint32_t> seeds;
 
-  int iterations = 40;  // maximum number in Algorithm 1; 0: only the start, with one cluster for each
+  int iterations = 40;  // maximum number in Algorithm 1; 0: only the initial fit, with one cluster for each
                         // sub-tensor
   // The fit ends when an iteration lowers the squared error by less than this share of it. Algorithm 1 tests
   // the sum of the cores' norms instead. For K > 1, this sum can stay constant by chance while the error
@@ -97,7 +97,7 @@ Tensor reconstruct(const ClusteredFit& fit);
 
 // These functions check settings, and name the wrong setting in the message.
 
-// All throw INVALID_ARGUMENT. Messages count modes from 1, like the paper.
+// They throw INVALID_ARGUMENT. Like the paper, messages count modes from 1.
 void check_ranks(const Dimensions& dimensions, const std::vector<std::size_t>& ranks);
 void check_iterations(int iterations, double tolerance);
 void check_clustered(const Dimensions& dimensions, const ClusteredSettings& settings);

@@ -9,7 +9,7 @@
 
 namespace nook::bake::tensor {
 
-// Fills clusters that no sub-tensor chose (the paper's 5.3).
+// Clusters that no sub-tensor chose (section 5.3 of the paper).
 
 // Fills each empty cluster by splitting the cluster with the largest sum of errors. The half of its members
 // with the larger errors moves to the empty cluster: their entries in `membership` (I_m x K) change. Returns

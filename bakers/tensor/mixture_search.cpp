@@ -137,7 +137,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-// Returns A^(-1/2), or the root of the pseudo-inverse.
+// Returns A^(-1/2). If A is singular, returns the root of the pseudo-inverse.
 MatrixXd inverse_root(const MatrixXd& a, double lowest_share) {
   const SymmetricEigen eigen = symmetric_eigen(a);
   Eigen::VectorXd roots = eigen.values;

@@ -32,7 +32,8 @@ struct Tensor {
   operator TensorView() const { return {dimensions, data.data()}; }
 };
 
-// The layout of a mode in memory: entry (o, i, r) at (o * size + i) * inner + r, o < outer, r < inner.
+// The layout of a mode in memory. Entry (o, i, r) is at (o * size + i) * inner + r, with o < outer and r <
+// inner.
 struct ModeLayout {
   std::size_t outer = 1, size = 1, inner = 1;
 };
