@@ -33,10 +33,12 @@ def font(size_px):
     return ImageFont.truetype(FONT, size_px)
 
 
-def label(picture, x, y, words, size_px=26):
+def label(picture, x, y, words, size_px=20):
     """Writes white words on a dark plate; x and y are the plate's corner."""
     draw = ImageDraw.Draw(picture, "RGBA")
-    left, top, right, bottom = draw.textbbox((0, 0), words, font=font(size_px))
+    left, _, right, _ = draw.textbbox((0, 0), words, font=font(size_px))
+    # All plates are equally high, whatever the letters.
+    _, top, _, bottom = draw.textbbox((0, 0), "Ay", font=font(size_px))
     pad = size_px // 3
     draw.rounded_rectangle((x, y, x + right - left + 2 * pad, y + bottom - top + 2 * pad), pad, fill=(20, 24, 30, 200))
     draw.text((x + pad - left, y + pad - top), words, font=font(size_px), fill=(255, 255, 255, 255))
@@ -83,7 +85,7 @@ def motion(build, name, scene, shots, count, loop_ms):
     for i in range(count):
         columns = [stacked([Image.open(folder / f"{kind}_{shot}_{i:04}.png").convert("RGB") for shot in shots]) for kind, _ in KINDS]
         for column, (_, words) in zip(columns, KINDS):
-            label(column, 12, 12, words)
+            label(column, 6, 5, words)
         frames.append(side_by_side(columns))
     save(name, frames, round(loop_ms / count))
 
@@ -92,7 +94,6 @@ ANIMATIONS = {
     # One cycle of the clip takes 1.1 s.
     "motion_walk": lambda build: motion(build, "motion_walk", "walk", ("body", "detail"), 14, 1100),
     "motion_feet": lambda build: motion(build, "motion_feet", "walk", ("detail",), 14, 1100),
-    "motion_together": lambda build: motion(build, "motion_together", "together", ("body",), 28, 4000),
 }
 
 
