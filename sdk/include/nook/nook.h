@@ -1,6 +1,7 @@
-/* Nook computes ambient occlusion (AO) for OpenGL engines. This header has the version, results, shared types
- * and the context. Lengths are in metres unless you set nook_context_desc.units_per_metre. Coordinate systems
- * are right-handed. AO is in [0, 1]; 1 means not occluded. Functions state one of three thread contracts:
+/* Nook computes ambient occlusion (AO) for OpenGL engines. This header declares the version, the result
+ * codes, the shared types and the context. Lengths are in metres unless you set
+ * nook_context_desc.units_per_metre. Coordinate systems are right-handed. AO is in [0, 1]; 1 means not
+ * occluded. The comment of each function states one of three thread contracts:
  *   any thread       Call it at any time from any thread.
  *   context thread   Call it only on the thread where the OpenGL context of the object is current.
  *   one at a time    Call it from any thread, but never twice at once on the same object.
@@ -50,13 +51,13 @@ enum {
   NOOK_ERROR_INVALID_HANDLE = -2,
   /* Your allocator returned NULL. */
   NOOK_ERROR_OUT_OF_MEMORY = -3,
-  /* The bytes are not a .nook file, are truncated or corrupted, or hold another kind of data. */
+  /* The bytes are not a .nook file, are truncated or corrupted, or contain the wrong kind of data. */
   NOOK_ERROR_BAD_FILE = -4,
   /* The .nook file has a format version that this library cannot read. */
   NOOK_ERROR_FILE_VERSION = -5,
   /* You compiled with headers whose version this library does not support. */
   NOOK_ERROR_VERSION = -6,
-  /* The processor, the GL context or the build lacks what the call needs. */
+  /* The processor, the OpenGL context or the build of Nook does not support what the call needs. */
   NOOK_ERROR_UNSUPPORTED = -7,
   /* OpenGL reported an error, or a shader did not compile. */
   NOOK_ERROR_GL = -8,
@@ -67,7 +68,7 @@ enum {
 };
 
 /* Returns the message of this thread's latest failure in this library: "function: what is wrong (got X, need
- * Y); what to do". The text is never NULL, and valid until this thread's next failure. Any thread. */
+ * Y); what to do". The text is never NULL. It is valid until the next failure on this thread. Any thread. */
 NOOK_API const char* nook_last_message(void);
 
 /* Returns the name of a result, such as "NOOK_ERROR_BAD_FILE", or "unknown result". Any thread. */
@@ -103,24 +104,24 @@ typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn bod
 enum {
   /* The best set that this processor supports. */
   NOOK_ISA_AUTO = 0,
-  /* Scalar code, on every platform. */
+  /* Scalar code, for every platform. */
   NOOK_ISA_SCALAR = 1,
-  /* x86-64: every processor. */
+  /* For every x86-64 processor. */
   NOOK_ISA_SSE2 = 2,
-  /* x86-64: processors with AVX2 and FMA. */
+  /* For x86-64 processors with AVX2 and FMA. */
   NOOK_ISA_AVX2 = 3,
-  /* x86-64: processors with AVX-512F. */
+  /* For x86-64 processors with AVX-512F. */
   NOOK_ISA_AVX512 = 4,
-  /* 64-bit ARM: every processor. */
+  /* For every 64-bit ARM processor. */
   NOOK_ISA_NEON = 5,
-  /* WebAssembly: modules that are built with its fixed-width SIMD. */
+  /* For WebAssembly modules that are built with fixed-width SIMD. */
   NOOK_ISA_WASM128 = 6
 };
 typedef int32_t nook_isa;
 
 /* Which form of a method to use: the published one, or Nook's own. */
 enum {
-  /* Nook's form, which is better than the published one. */
+  /* Nook's form of the method, which gives better results than the published form. */
   NOOK_FORM_DEFAULT = 0,
   /* The form of the paper, for comparisons. */
   NOOK_FORM_PAPER = 1
@@ -151,7 +152,7 @@ enum {
 };
 typedef int32_t nook_format;
 
-/* Handles of objects. Create and load calls return a handle; pass its address to the destroy call. */
+/* Handles of objects. Create and load functions return a handle. Pass its address to the destroy function. */
 typedef struct nook_context_s* nook_context;
 typedef struct nook_model_s* nook_model;
 typedef struct nook_scene_s* nook_scene;
@@ -190,11 +191,11 @@ typedef struct nook_lobe {
  * A call that may get more inputs in later versions takes a descriptor, a struct whose name ends in _desc.
  * Fill it with its init function, such as nook_scene_desc_init(&desc), on any thread, then set the fields
  * that you want to change. The init function sets struct_size and type. Leave fields named `reserved` 0.
- * Leave `next` NULL, or point it to an experimental descriptor that its comment names. Programs that were
- * compiled with an older header of the same major version keep working.
+ * Leave `next` NULL, or point it to an experimental descriptor that the comment of `next` names. Programs
+ * that were compiled with an older header of the same major version keep working.
  *
- * A call that describes an object fills an info, a struct whose name ends in
- * _info. Set its struct_size first; all other fields are outputs:
+ * A call that describes an object fills an info, a struct whose name ends in _info. Set its struct_size
+ * first; all other fields are outputs:
  *     nook_model_info info = {sizeof info}; */
 
 /* The value of `type` in a descriptor; the init functions set it. */
@@ -240,7 +241,7 @@ enum {
 /* Fills a descriptor of the given type with defaults. Call the typed functions instead, such as
  * nook_scene_desc_init, which pass sizeof and NOOK_VERSION. The library never writes more than `size` bytes.
  * Any thread. Errors: INVALID_ARGUMENT (desc is NULL, the type is unknown, or size is smaller than in the
- * first release), VERSION (the major version differs, or the minor version is newer than the library's). */
+ * first release), VERSION (your header has another major version than the library, or a newer minor one). */
 NOOK_API nook_result nook_desc_init(uint32_t type, void* desc, size_t size, uint32_t header_version);
 
 typedef struct nook_context_desc {
@@ -256,7 +257,7 @@ typedef struct nook_context_desc {
   void* parallel_for_user;
   /* The instruction set of all objects that you create from this context; default NOOK_ISA_AUTO. */
   nook_isa isa;
-  /* How many of your length units make one metre, such as 100; > 0, default 1. It scales default lengths. */
+  /* How many of your units make one metre, such as 100; > 0, default 1. Nook scales default lengths by it. */
   float units_per_metre;
 } nook_context_desc;
 static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
@@ -264,12 +265,12 @@ static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
 }
 
 /* Creates a context. You need it to create models, scenes and GL objects. On failure *out is NULL.
- * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the build or the processor lacks desc->isa; the message
- * lists the available sets), OUT_OF_MEMORY. */
+ * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the build or the processor does not support desc->isa;
+ * the message lists the available sets), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_context_create(const nook_context_desc* desc, nook_context* out);
 
-/* Releases your reference and sets *context to NULL; both may be NULL. Objects that you created from the
- * context keep alive what they need, so you can destroy objects in any order. Any thread. */
+/* Releases your reference and sets *context to NULL; `context` and *context may be NULL. Objects keep alive
+ * what they need of their context, so you can destroy objects in any order. Any thread. */
 NOOK_API void nook_context_destroy(nook_context* context);
 
 #ifdef __cplusplus

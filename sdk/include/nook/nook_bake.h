@@ -19,7 +19,7 @@ NOOK_API nook_result nook_bake_desc_init(uint32_t type, void* desc, size_t size,
 /* Like nook_last_message(), but for failures in this library. Any thread. */
 NOOK_API const char* nook_bake_last_message(void);
 
-/* ---- Jobs: bakes on threads of their own; any number may run at once ----
+/* ---- Jobs: each bake runs on its own threads; any number of jobs may run at once ----
  *
  * Every bake descriptor has four fields for its job. `seed` is 1 by default; the same seed gives the same
  * bytes with any number of threads. `threads` is 0 by default, which means all cores; the maximum is 1024.
@@ -39,13 +39,14 @@ typedef struct nook_bake_progress {
   nook_bake_state state;
   /* The current stage in English, such as "ray tracing"; not NULL, valid while the library is loaded. */
   const char* stage;
-  /* Completed and total steps of this stage. A step is a pose, view, vertex, texel or step of a fit. */
+  /* Steps of this stage, completed and total. A step is a pose, view, vertex, texel or iteration of the
+   * fit. */
   uint64_t done, total;
 } nook_bake_progress;
 
-/* Receives the progress of a job and returns 0 to cancel it. The job calls it on its own threads, one call at
- * a time, and never after nook_bake_job_wait or nook_bake_job_destroy has returned. Do not wait for the job
- * in it. */
+/* Receives the progress of a job. Return 0 to cancel the job. The job makes these calls on its own threads,
+ * one at a time, and none after nook_bake_job_wait or nook_bake_job_destroy has returned. Do not wait for the
+ * job here. */
 typedef int32_t (*nook_bake_progress_fn)(void* user, const nook_bake_progress* progress);
 
 /* Starts a bake and returns at once. The descriptor's `type` selects the kind of bake; if you know the kind,
@@ -76,7 +77,7 @@ NOOK_API nook_result nook_bake_job_report(nook_bake_job job, const char** json);
 /* Cancels a running job and waits for its end, destroys it and sets *job to NULL. One at a time. */
 NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 
-/* ---- Characters: immutable; jobs that use one keep it alive ----
+/* ---- Characters: immutable; a job keeps its character alive ----
  *
  * Pose matrices are of the kind NOOK_POSE_REST_TO_WORLD: one row-major 3x4 matrix for each bone, from rest
  * space to world space in metres. Vertices are in the order of the imported file, one imported primitive
@@ -88,12 +89,12 @@ NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 typedef struct nook_bake_source_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* UTF-8. The file may refer to other files in its folder, and in any folder if allow_outside_files is 1. */
+  /* UTF-8. The file may refer to other files in its folder, or anywhere if allow_outside_files is 1. */
   const char* path;
-  /* All buffers must be embedded. */
+  /* The contents of the file, which must contain all of its buffers. */
   const void* bytes;
   size_t byte_count;
-  /* Metres, 3 floats for each vertex, and 3 vertex indices for each triangle. */
+  /* 3 floats for each vertex, in metres; and 3 vertex indices for each triangle. */
   const float* positions;
   const uint32_t* indices;
   /* `influences` bone indices and weights >= 0 for each vertex; the import normalises the weights. */
@@ -109,11 +110,11 @@ typedef struct nook_bake_source_desc {
   const int32_t* bone_parents;
   /* Joint frames in rest space, 12 floats for each bone: orthonormal axes, with the origin at the joint. */
   const float* bone_frames_3x4;
-  /* Primitives in order and without gaps. If NULL, one primitive holds all vertices. */
+  /* The vertices of each primitive, in order and without gaps. If NULL, one primitive holds all vertices. */
   const nook_range* primitives;
   uint32_t primitive_count;
   /* Names of nodes or meshes to import (`meshes`) or to skip (`without`); * and ? are wildcards. By default,
-   * imports every visible one except LOD1, LOD2 and so on. */
+   * the import takes every visible one except LOD1, LOD2 and so on. */
   const char* const* meshes;
   const char* const* without;
   uint32_t mesh_count, without_count;
@@ -136,7 +137,7 @@ typedef struct nook_bake_character_info {
   uint32_t vertex_count;
   /* The number of vertices of the imported primitives. */
   uint32_t file_vertex_count;
-  /* The number of triangles, without the degenerate ones, which the import drops. */
+  /* The number of triangles. The import drops degenerate triangles, so they are not counted. */
   uint32_t triangle_count;
   uint32_t bone_count, clip_count, primitive_count;
   /* The number of import warnings. A warning tells what the import left out or repaired. */
@@ -163,7 +164,7 @@ typedef int32_t nook_bake_name;
 NOOK_API const char* nook_bake_character_name(nook_bake_character character, nook_bake_name kind,
                                               uint32_t index);
 
-/* The arrays of a character. Vertices are in file order, as many as file_vertex_count. */
+/* The arrays of a character. Arrays over vertices have file_vertex_count entries, in file order. */
 enum {
   /* int32_t for each bone: the index of its parent, or -1 for a root. */
   NOOK_BAKE_ARRAY_PARENTS = 0,
@@ -185,8 +186,8 @@ enum {
 };
 typedef int32_t nook_bake_array;
 
-/* Writes an array. count must be the character's number of bones, primitives, vertices or triangles. stride
- * is in bytes (0: tightly packed). Any thread. Errors: INVALID_ARGUMENT. */
+/* Writes an array. `count` must be the character's number of bones, primitives, vertices or triangles, as
+ * fits the array. `stride` is in bytes (0: tightly packed). Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_character_read(nook_bake_character character, nook_bake_array array, void* out,
                                               uint32_t count, size_t stride);
 
@@ -194,8 +195,8 @@ NOOK_API nook_result nook_bake_character_read(nook_bake_character character, noo
 NOOK_API nook_result nook_bake_character_clip_duration(nook_bake_character character, uint32_t clip,
                                                        float* seconds);
 
-/* Writes the pose of a clip at `time_s`, in seconds from the first key, clamped to the clip. Here and below,
- * `bone_count` must be the character's bone count. Any thread. Errors: INVALID_ARGUMENT. */
+/* Writes the pose of a clip at `time_s`. The time is in seconds from the first key, clamped to the clip. Here
+ * and below, `bone_count` must be the character's bone count. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_character_sample_clip(nook_bake_character character, uint32_t clip,
                                                      float time_s, float* bones_3x4, uint32_t bone_count);
 
@@ -220,8 +221,8 @@ enum {
   NOOK_BAKE_PRESET_DRAFT = 0,
   /* Up to 5 minutes and 2 GB of memory. */
   NOOK_BAKE_PRESET_STANDARD = 1,
-  /* Up to half an hour. Uses nearly four times the poses, twice the rays, and up to 800 key points instead of
-   * 500. With 800 key points, an update takes about 20 % longer. */
+  /* Up to half an hour. Compared with STANDARD, it uses nearly four times the poses, twice the rays, and up
+   * to 800 key points instead of 500; an update then takes about 20 % longer. */
   NOOK_BAKE_PRESET_PRODUCTION = 2
 };
 typedef int32_t nook_bake_preset;
@@ -230,13 +231,13 @@ typedef int32_t nook_bake_preset;
 enum {
   /* Generated whole-body poses, which need no clip. */
   NOOK_BAKE_POSES_AUTO = 0,
-  /* Poses that rotate only one joint, on a grid over +-45 degrees. Use them to measure, not to ship. */
+  /* Poses that rotate only one joint, on a grid over +-45 degrees. Do not ship a model from these poses. */
   NOOK_BAKE_POSES_SINGLE_JOINT = 1,
   /* The character's clips. */
   NOOK_BAKE_POSES_CLIPS = 2,
   /* The poses of AUTO and CLIPS, and as many variants of the clip poses: mirrored, mixed and blended. */
   NOOK_BAKE_POSES_ALL = 3,
-  /* Only extra_poses_3x4. */
+  /* Only the poses in extra_poses_3x4. */
   NOOK_BAKE_POSES_EXTRA = 4
 };
 typedef int32_t nook_bake_pose_mode;
@@ -254,8 +255,7 @@ typedef struct nook_bake_character_desc {
   const void* next;
   /* The character to bake. */
   nook_bake_character character;
-  /* Default STANDARD. The preset gives the values of the fields from `spheres` to `samples_per_clip` that are
-   * 0. */
+  /* Default STANDARD. Each count from `spheres` to `samples_per_clip` that is 0 gets the preset's value. */
   nook_bake_preset preset;
   /* The maximum number of proxy spheres, up to 1024, and of key points, up to 4096. */
   uint32_t spheres, key_points;
@@ -263,36 +263,35 @@ typedef struct nook_bake_character_desc {
   uint32_t rays;
   /* Steps of the fit, up to 10,000,000. */
   uint32_t steps;
-  /* Default ALL, which is AUTO for a character without clips. */
+  /* Default ALL. For a character without clips, ALL is the same as AUTO. */
   nook_bake_pose_mode pose_mode;
   /* The number of generated poses of AUTO and ALL. With ALL, the default is reduced by the number of
    * clip-pose variants, at most by half. */
   uint32_t auto_pose_count;
   /* The number of poses of each clip. */
   uint32_t samples_per_clip;
-  /* The number of names in clip_names. 0: every clip that has motion (a T-pose or A-pose has none). */
+  /* The number of names in clip_names. 0: the bake uses every clip with motion (not a T-pose or A-pose). */
   uint32_t clip_count;
   /* The number of poses in extra_poses_3x4. */
   uint32_t extra_pose_count;
-  /* The clips to use. With an unknown name the bake fails; the message lists the character's clips. */
+  /* The clips to use. If a name is unknown, the bake fails, and the message lists the character's clips. */
   const char* const* clip_names;
-  /* More poses in addition to pose_mode, with bone_count matrices each. The call copies them. */
+  /* Poses to add to the poses of pose_mode, with bone_count matrices each. The call copies them. */
   const float* extra_poses_3x4;
   uint64_t seed;
   uint32_t threads;
-  /* Default NOOK_FORM_DEFAULT: a smooth horizon, a fall-off with the exact power of distance, a fit by
-   * mini-batches. NOOK_FORM_PAPER: the kernel and the block coordinate descent of Le et al. 2019. */
+  /* NOOK_FORM_DEFAULT (default) uses a smooth horizon, a fall-off with the exact power of distance, and a fit
+   * by mini-batches. NOOK_FORM_PAPER uses the kernel and the block coordinate descent of Le et al. 2019. */
   nook_form form;
-  /* The exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED. 0 (default): 1, or 2 with
+  /* The exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED. 0 (default) means 1, or 2 with
    * NOOK_FORM_PAPER. */
   float gamma;
-  /* The start value of c, up to 64; the fit changes c. A key point's shadow is n / (1 + c n), where n is the
-   * norm over its spheres, because a plain sum is too dark where many spheres overlap. 0 (default) means 0.5
-   * with the default form and a gamma of 1, and no saturation otherwise. NOOK_BAKE_UNSATURATED turns
-   * saturation off; other values need the default form and a gamma of 1. */
+  /* The initial value of c in the shadow of a key point, n / (1 + c n). Here n is the norm over the spheres,
+   * which alone is too dark where many spheres overlap. The fit changes c. The maximum is 64. 0 (default)
+   * means 0.5 with the default form and a gamma of 1, and no saturation otherwise. NOOK_BAKE_UNSATURATED
+   * turns saturation off; other values need the default form and a gamma of 1. */
   float saturation;
-  /* A time limit for the fit in seconds. If it is reached, results are not reproducible. 0 (default):
-   * none. */
+  /* The time limit of the fit in seconds. A fit that reaches it is not reproducible. Default 0: no limit. */
   double time_limit_s;
   nook_bake_progress_fn progress;
   void* progress_user;
@@ -301,7 +300,7 @@ static inline nook_result nook_bake_character_desc_init(nook_bake_character_desc
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake a character's model, for nook_model_load. Otherwise like nook_bake_start. */
+/* Starts to bake a character's model for nook_model_load. In other respects, see nook_bake_start. */
 static inline nook_result nook_bake_start_character(const nook_bake_character_desc* desc,
                                                     nook_bake_job* out) {
   return nook_bake_start(desc, out);
@@ -322,7 +321,7 @@ typedef struct nook_bake_bent_desc {
   size_t model_size;
   /* Rays for each vertex and pose, 1 to 65,536; default 128. */
   uint32_t rays;
-  /* Generated poses, 8 to 100,000; default 48. */
+  /* The number of generated poses, 8 to 100,000; default 48. */
   uint32_t auto_pose_count;
   /* Poses per clip, 1 to 100,000; default 3. The bake uses the clips that the model was fitted to, or every
    * clip with motion if the model has no recipe. */
@@ -336,16 +335,16 @@ static inline nook_result nook_bake_bent_desc_init(nook_bake_bent_desc* desc) {
   return nook_bake_desc_init(NOOK_DESC_BAKE_BENT, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake bent normals. The resulting file, for nook_model_load, is the model with bent normals added.
- * Otherwise like nook_bake_start. */
+/* Starts to bake bent normals. The result is a model file for nook_model_load: the given model with bent
+ * normals. In other respects, see nook_bake_start. */
 static inline nook_result nook_bake_start_bent(const nook_bake_bent_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
 
 /* ---- Clips ----
  *
- * The bake stores ray-traced AO and poses of a character's clips in a small table over frames (nook_clips.h,
- * docs/character.md). Crowds drawn from this table need no bones on the CPU. */
+ * The bake stores the ray-traced AO and the pose of every frame of a character's clips in a small table
+ * (nook_clips.h, docs/character.md). Crowds drawn from this table need no bones on the CPU. */
 
 typedef struct nook_bake_clips_desc {
   uint32_t struct_size, type;
@@ -355,7 +354,7 @@ typedef struct nook_bake_clips_desc {
   /* The bytes of the character's baked model. */
   const void* model;
   size_t model_size;
-  /* The clips to bake. If NULL (default), every clip that has motion (a T-pose or A-pose has none). */
+  /* The clips to bake. If NULL (default), the bake uses every clip with motion (not a T-pose or A-pose). */
   const char* const* clip_names;
   /* The number of names; default 0. */
   uint32_t clip_count;
@@ -363,11 +362,10 @@ typedef struct nook_bake_clips_desc {
   uint32_t rays;
   /* Frames per second, 0.1 to 1000; default 30. All clips together have at most 2^20 frames. */
   float frames_per_second;
-  /* The AO error that the bake aims for, root mean square over vertices and frames, 1e-4 to 1; default 0.015.
-   * The file gets as many modes as this error needs. */
+  /* The root mean square AO error over vertices and frames that the bake aims for, 1e-4 to 1; default 0.015.
+   * The file gets as many modes as are needed for this error. */
   float max_error;
-  /* The file has at most this many bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes beyond this
-   * size are left out. */
+  /* The maximum bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes that do not fit are left out. */
   float max_bytes;
   /* The maximum number of AO modes, a multiple of 4 from 4 to 256; default 96. */
   uint32_t max_modes;
@@ -381,13 +379,13 @@ static inline nook_result nook_bake_clips_desc_init(nook_bake_clips_desc* desc) 
   return nook_bake_desc_init(NOOK_DESC_BAKE_CLIPS, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake the clips of a character, for nook_clips_load. Otherwise like nook_bake_start; if a clip
- * name is unknown, the message lists the clips. */
+/* Starts to bake the clips of a character for nook_clips_load. If a clip name is unknown, the message lists
+ * the clips. In other respects, see nook_bake_start. */
 static inline nook_result nook_bake_start_clips(const nook_bake_clips_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
 
-/* ---- Materials: compressed, from a built-in meso-structure or from measured data ---- */
+/* ---- Materials: the bake compresses a built-in meso-structure or measured data ---- */
 
 /* The compression of a material (Tsai and Shih, TOG 2012). */
 enum {
@@ -398,8 +396,8 @@ enum {
   /* N-mode singular value decomposition: one cluster. */
   NOOK_BAKE_METHOD_N_SVD = 2,
   /* Experimental: a small neural network over features of the texels. It trains for minutes, and is better
-   * than the other methods on flat and glossy materials (docs/materials.md). The VOTF is compressed by K-CTA;
-   * the ranks apply only to it. */
+   * than the other methods on flat and glossy materials (docs/materials.md). It compresses the VOTF by K-CTA,
+   * and the rank fields apply only to the VOTF. */
   NOOK_BAKE_METHOD_NEURAL = 3
 };
 typedef int32_t nook_bake_method;
@@ -411,25 +409,25 @@ typedef int32_t nook_bake_method;
 typedef struct nook_bake_material_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* A built-in structure to ray trace: "fiber", "roughhole" or "weave". If NULL, `btf` has measured data. */
+  /* A built-in structure to ray trace: "fiber", "roughhole" or "weave". If NULL, `btf` is used instead. */
   const char* meso;
   /* light_count x view_count x height x width x RGB, where RGB varies fastest; row 0 is at v = 0. Pass finite
-   * linear radiances towards the view, for an irradiance of 1 on a plane that faces the light. NULL with
+   * linear radiances towards the view, for irradiance 1 on a plane that faces the light. Must be NULL with
    * `meso`. */
   const float* btf;
   /* view_count x height x width: the share of each texel where the view meets the material, in [0, 1].
-   * Colours where it is 0 are not read. The VOTF's mask is 1 where the share is at least 0.5. If NULL, the
-   * share is 1 everywhere and there is no VOTF. Must be NULL with `meso`. */
+   * Colours are not read where the share is 0. The VOTF's mask is 1 where the share is at least 0.5. If
+   * `coverage` is NULL, the share is 1 everywhere and there is no VOTF. Must be NULL with `meso`. */
   const float* coverage;
-  /* 3 floats for each direction, at least 1e-3 apart; with `meso`, z must be >= 0.08 (85 degrees). NULL is
-   * allowed only with `meso`, and gives a spiral of directions down to max_tilt_degrees. */
+  /* 3 floats for each direction. Directions must be at least 1e-3 apart; with `meso`, z must be >= 0.08 (85
+   * degrees from the normal). NULL, only allowed with `meso`, gives a spiral down to max_tilt_degrees. */
   const float* lights;
   const float* views;
-  /* Default 100. */
+  /* The numbers of light directions and of view directions; default 100 each. */
   uint32_t light_count, view_count;
-  /* Texels, default 96. */
+  /* The size of the tile in texels; default 96 x 96. */
   uint32_t width, height;
-  /* The largest angle of the spirals from the normal; default 75. */
+  /* The spirals contain directions up to this angle from the normal; default 75. */
   float max_tilt_degrees;
   /* Only for `meso`: view rays along the side of a texel, default 2; the number of diffuse bounces, default
    * 2; and rays per vertex for the bounces, default 64. */
@@ -441,20 +439,21 @@ typedef struct nook_bake_material_desc {
   nook_form form;
   /* A value of nook_material_visibility: 0 for no VOTF, 1 for masks, 2 (default) for signed distances. */
   int32_t visibility;
-  /* Ranks of the BTF's modes; rank_view is the sum over the clusters. All four 0 (default): a built-in
+  /* Ranks of the BTF's modes; rank_view is the sum over the clusters. If all are 0 (default), a built-in
    * structure gets the ranks of docs/materials.md; for measured data, rank_threshold sets them. */
   uint32_t rank_light, rank_view, rank_x, rank_y;
-  /* Ranks of the VOTF's spatial modes. If both are 0 (default), the same as the BTF. */
+  /* Ranks of the VOTF's spatial modes. If both are 0 (default), the VOTF has the spatial ranks of the BTF. */
   uint32_t votf_rank_x, votf_rank_y;
-  /* The view rank of one cluster, default 4; the number of clusters, default 0: rank_view /
-   * cluster_rank_view. */
+  /* The view rank of one cluster, default 4; and the number of clusters. If `clusters` is 0 (default), there
+   * are rank_view / cluster_rank_view clusters. */
   uint32_t cluster_rank_view, clusters;
   /* K, the number of clusters that a view mixes; default 3. */
   uint32_t mixture;
   /* Cells along the side of the resampled view maps of K-CTA; default 64. With 0 there are no view maps, and
-   * decoding mixes the three nearest views, which is up to three times the work. */
+   * a decoder mixes the three nearest views, which takes up to three times the work. */
   uint32_t view_map_side;
-  /* The allowed squared error when ranks are chosen, per mode, relative to the squared norm; default 0.01. */
+  /* When the bake chooses ranks, it allows this squared error per mode, relative to the squared norm of the
+   * data. Default 0.01. */
   float rank_threshold;
   /* Threshold and weight of the visibility mapping, equation (26). If both are 0 (default), they are 0.5 and
    * 1 for masks, and half a texel and its reciprocal for distances (0.05 and 12 with NOOK_FORM_PAPER). */
@@ -481,8 +480,8 @@ static inline nook_result nook_bake_material_desc_init(nook_bake_material_desc* 
   return nook_bake_desc_init(NOOK_DESC_BAKE_MATERIAL, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake a material, for nook_material_load. Otherwise like nook_bake_start; the call also fails on
- * faults in the data, such as ranks that exceed the sizes. The report contains the signal-to-error ratio in
+/* Starts to bake a material for nook_material_load. The call fails if the data has faults, such as ranks that
+ * exceed the sizes. In other respects, see nook_bake_start. The report contains the signal-to-error ratio in
  * dB and the share of wrong texels. */
 static inline nook_result nook_bake_start_material(const nook_bake_material_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);

@@ -73,7 +73,7 @@ class Character : public Unique<nook_bake_character, nook_bake_character_destroy
   }
 };
 
-// A running bake. The destructor cancels it and waits until it ends.
+// A job of a bake. The destructor cancels the job and waits until it ends.
 class Job : public Unique<nook_bake_job, nook_bake_job_destroy> {
  public:
   // Pass any bake descriptor, such as nook_bake_character_desc.

@@ -11,14 +11,14 @@
 extern "C" {
 #endif
 
-/* Identify an instance and an occluder within their scene. 0 is never an id; ids are never reused. */
+/* The ids of instances and of occluders in a scene. 0 is never an id; ids are never reused. */
 typedef uint32_t nook_instance_id;
 typedef uint32_t nook_occluder_id;
 
 /* ---- Models: immutable, shared by any number of scenes and threads ---- */
 
-/* Loads a model from the bytes of a .nook file, which you may free afterwards. The library validates
- * everything, so that hostile bytes are safe. On failure *out is NULL.
+/* Loads a model from the bytes of a .nook file, which you may free afterwards. The library validates all
+ * bytes, so you can load files that you do not trust. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_load(nook_context context, const void* bytes, size_t size, nook_model* out);
 
@@ -32,18 +32,18 @@ typedef struct nook_model_info {
   uint32_t sphere_count, key_point_count;
   /* The number of vertices after welding. */
   uint32_t vertex_count;
-  /* The number of AO values: one for each vertex of the imported file, the primitives one after another. */
+  /* The number of AO values: one for each vertex of the imported file, in the order of its primitives. */
   uint32_t file_vertex_count;
   uint32_t primitive_count;
   /* The number of levels of detail, full detail included; at least 1. */
   uint32_t lod_count;
-  /* Metres; the radius of the rest pose around the centre of its bounding box. */
+  /* The radius of the rest pose in metres, measured from the centre of its bounding box. */
   float bounding_radius;
   /* The exponent of the shadow norm (Le et al. 2019, slide 20). */
   float gamma;
-  /* The number of skins of nook_model_describe_skin; 0 without bind data. */
+  /* The number of skins for nook_model_describe_skin; 0 if the model has no bind data. */
   uint32_t skin_count;
-  /* The number of vertices of nook_model_describe_check_vertex, at most 64; 0 without bind data. */
+  /* The number of check vertices, at most 64 (nook_model_describe_check_vertex); 0 without bind data. */
   uint32_t check_vertex_count;
   /* Bytes of host memory that all instances share, without the overhead of the allocator. */
   uint64_t model_bytes;
@@ -66,15 +66,15 @@ NOOK_API nook_result nook_model_describe_primitive(nook_model model, uint32_t pr
 enum {
   /* One float: the ray-traced AO of the rest pose, the same value that a static AO bake gives. */
   NOOK_MODEL_STATIC_AO = 0,
-  /* Eight signed bytes, where 127 means 1: the mean occluded direction for AO = 0 (x, y, z, 0), then the one
-   * for AO = 1. Pass them to your vertex shader as two normalised attributes of GL_BYTE. They are in the
-   * space of the file's NORMAL attribute if the model has bind data, otherwise in rest space. */
+  /* Eight signed bytes, where 127 means 1: the mean occluded direction for AO = 0 (x, y, z, 0), then the mean
+   * occluded direction for AO = 1. Pass both to your vertex shader as normalised attributes of GL_BYTE. They
+   * are in the space of the file's NORMAL attribute if the model has bind data, otherwise in rest space. */
   NOOK_MODEL_OCCLUDED_DIRECTIONS = 1
 };
 typedef int32_t nook_model_array;
 
-/* Copies an array in the file's vertex order. count must be file_vertex_count; stride is in bytes (0: tightly
- * packed). Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model was baked without this array). */
+/* Copies an array in the file's vertex order. `count` must be file_vertex_count; `stride` is in bytes (0:
+ * tightly packed). Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model does not have this array). */
 NOOK_API nook_result nook_model_read(nook_model model, nook_model_array array, void* out, uint32_t count,
                                      size_t stride);
 
@@ -84,8 +84,8 @@ NOOK_API nook_result nook_model_read(nook_model model, nook_model_array array, v
  * bake bent` a model has two vectors for each vertex, NOOK_MODEL_OCCLUDED_DIRECTIONS: the cosine-weighted
  * mean of the directions that the body occludes when AO is 0, and when it is 1. Rotate both as you rotate the
  * normal n, and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex shader, as the function
- * nook_scene_bent_normal in nook_gl_view.glsl does. This needs no update and is the same on all tiers.
- * Occlusion by other bodies and by the ground is treated like occlusion by the body itself. */
+ * nook_scene_bent_normal in nook_gl_view.glsl does. Bent normals need no update of their own, and are the
+ * same on all tiers. Occlusion by other bodies and the ground is treated like self-occlusion. */
 
 /* ---- Scenes ---- */
 
@@ -96,15 +96,15 @@ typedef struct nook_scene_desc {
    * self-shadow. NOOK_FORM_DEFAULT (default): as a separate factor, AO = self * (1 - added). NOOK_FORM_PAPER:
    * in the norm of the self-shadow, as in Le et al. 2019. */
   nook_form form;
-  /* AO, in [0, 1], default 1/1024. An update skips linked casters, occluders and grounds that cannot darken
-   * an instance by more than this. */
+  /* A difference of AO in [0, 1], default 1/1024. An update skips a linked caster, an occluder or a ground
+   * that cannot darken the instance by more than this. */
   float cutoff_error;
-  /* AO, root mean square, >= 0. An update uses the coarsest level of detail whose baked self-shadow error is
-   * below lod_error * (distance to the camera / lod_distance). Default 0: full detail. */
+  /* A root mean square AO error, >= 0. An update uses the coarsest level of detail whose baked self-shadow
+   * error is below lod_error * (distance to the camera / lod_distance). Default 0: full detail. */
   float lod_error;
-  /* > 0. The default 0 means 10 metres. */
+  /* The distance to which lod_error refers, > 0. The default 0 means 10 metres. */
   float lod_distance;
-  /* Frames, >= 1, default 1. Updates may skip a distant instance, but never for this many frames in a row. */
+  /* A distant instance is updated at least once in this many frames; >= 1. Default 1: in every frame. */
   uint32_t lod_max_interval;
   /* The radius of the sphere that represents the ground. 0 (default): 11,000 bounding radii of the body. */
   float ground_radius;
@@ -114,8 +114,8 @@ typedef struct nook_scene_desc {
   /* The AO change, root mean square over a body, that you allow when nook_scene_update replaces distant
    * spheres by fewer, larger ones; 0 to 1, default 1/1024. The spheres of a linked caster become 16, 6 or 2
    * groups. The body's own spheres are grouped only with the default kernel, at most 256 spheres, full detail
-   * and no light. A single vertex can change 18 times as much. 0 turns grouping off. NOOK_FORM_PAPER and the
-   * tiers 43 and ES31 ignore this field. */
+   * and no light. The AO of a single vertex can change by 18 times this value. 0 turns grouping off.
+   * NOOK_FORM_PAPER and the tiers 43 and ES31 ignore this field. */
   float far_error;
 } nook_scene_desc;
 static inline nook_result nook_scene_desc_init(nook_scene_desc* desc) {
@@ -125,10 +125,10 @@ static inline nook_result nook_scene_desc_init(nook_scene_desc* desc) {
 /* Creates an empty scene. On failure *out is NULL. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_create(nook_context context, const nook_scene_desc* desc, nook_scene* out);
 
-/* Destroys the scene and sets *scene to NULL. Its GL objects may outlive it. One at a time. */
+/* Destroys the scene and sets *scene to NULL. Its OpenGL objects may exist longer. One at a time. */
 NOOK_API void nook_scene_destroy(nook_scene* scene);
 
-/* Adds an instance in the rest pose, without ground and links. The call allocates.
+/* Adds an instance in the rest pose, without a ground and without links. The call allocates.
  * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_add_instance(nook_scene scene, nook_model model, nook_instance_id* out);
 
@@ -151,8 +151,8 @@ NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiv
 
 /* From the next update on, links each instance to its `k` nearest instances, in addition to the links above.
  * `k` is 0 (off) to 16. `max_distance` is in metres, between the centres of bounding spheres. Each update
- * searches the nearest instances again; the time grows linearly with the number of instances if they are
- * spread out. This call may allocate, so that the update does not have to. One at a time. Errors:
+ * searches the nearest instances again; if the instances are spread out, the time grows linearly with their
+ * number. This call may allocate, so that the update does not have to. One at a time. Errors:
  * INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
@@ -192,24 +192,25 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  * sphere that covers the share f of its receiver's hemisphere takes away f * rho of the light instead of f.
  * For each channel, rho is the mean radiance of the lobes behind the sphere divided by their mean radiance in
  * the receiver's hemisphere. All spheres of a linked instance share one rho; the ground uses the rho of the
- * half-space below its plane. The result is a colour for each vertex. In albedo / pi * E * AO, use it instead
- * of AO; E is the irradiance of the same lobes. Under constant light, the colour is equal to AO. The CPU and
- * the GPU update both compute it; nook_gl.h shows how to use it in a shader. */
+ * half-space below its plane. The result is a colour for each vertex. In albedo / pi * E * AO, use this
+ * colour in place of AO; E is the irradiance of the same lobes. Under constant light, the colour is equal to
+ * AO. The CPU and the GPU update both compute it; nook_gl.h shows how to use it in a shader. */
 
 /* Sets the light of an instance for the next updates. Pass at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
  * from nook_probe_read_lobes at the instance's position; the call copies them. `lobe_count` 0 or `lobes` NULL
  * removes the light. With 12 lobes an update of an instance takes 0.1 to 0.2 ms longer on one core with AVX2,
- * and as much again for each linked instance. The call allocates at the first light of an instance.
+ * and by the same time again for each linked instance. The call allocates when an instance gets its first
+ * light.
  * One at a time. Errors: INVALID_ARGUMENT (the message names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_lobe* lobes,
                                           uint32_t lobe_count);
 
-/* Sets the position of the camera, in world space and metres, for levels of detail. Without it, or with NULL,
- * every instance has full detail. One at a time. Errors: INVALID_ARGUMENT. */
+/* Sets the camera position by which updates choose levels of detail, in world space and metres. Before the
+ * first call, and with NULL, every instance has full detail. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
-/* Evaluates the shadows of all instances at their key points on the CPU. It uses the context's parallel_for
- * if you set one, and neither allocates nor locks. One at a time. Errors: INVALID_ARGUMENT. */
+/* Evaluates the shadows of all instances at their key points on the CPU. The call uses the context's
+ * parallel_for if you set one. It does not allocate or lock. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 
 /* Reads a channel of an instance for each vertex, in the imported file's vertex order. Valid formats:
@@ -218,23 +219,24 @@ NOOK_API nook_result nook_scene_update(nook_scene scene);
  *   NOOK_CHANNEL_BENT_NORMAL     SNORM8
  * The values come from the last nook_scene_update. AO is 1 until an update has evaluated the instance. If the
  * instance had no light in the update, directional AO is the AO in all three channels. Bent normals use the
- * current pose; each vertex rotates with the key point that has the largest weight. count must be
- * nook_model_info.file_vertex_count; stride is in bytes (0: tightly packed), and nothing between the values
- * is written. The call does not allocate. Any thread, while no call changes the scene. Errors:
- * INVALID_ARGUMENT (also for a format that the channel does not take), INVALID_HANDLE, UNSUPPORTED (the model
+ * current pose; each vertex rotates with the key point that has the largest weight. `count` must be
+ * nook_model_info.file_vertex_count. `stride` is in bytes (0: tightly packed); bytes between the values are
+ * not changed. The call does not allocate. Any thread, while no call changes the scene. Errors:
+ * INVALID_ARGUMENT (also if the channel does not support the format), INVALID_HANDLE, UNSUPPORTED (the model
  * was baked without bent normals or without rest normals). */
 NOOK_API nook_result nook_scene_read(nook_scene scene, nook_instance_id instance, nook_channel channel,
                                      nook_format format, void* out, uint32_t count, size_t stride);
 
 typedef struct nook_scene_info {
   uint32_t struct_size;
-  /* All instances, and the instances that the last update evaluated. */
+  /* The number of instances, and of the instances that the last update evaluated. */
   uint32_t instances, instances_updated;
-  /* Receiver-caster pairs that the update evaluated; and casters, occluders and grounds that it skipped. */
+  /* The update evaluated this many receiver-caster pairs, and skipped this many casters, occluders and
+   * grounds. */
   uint32_t links, links_culled;
-  /* Instances whose current pose has a bone that was sheared or scaled unevenly, and was corrected. */
+  /* The number of instances with a bone that Nook corrected because it was sheared or scaled unevenly. */
   uint32_t uneven_instances;
-  /* Pairs of sphere and key point that the last update evaluated. */
+  /* The number of pairs of a sphere and a key point that the last update evaluated. */
   uint64_t evaluations;
   /* Bytes of host memory that the scene holds now, without its models. */
   uint64_t memory_bytes;
@@ -251,8 +253,8 @@ NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info
  * applied. Do not convert them yourself: in many files, a node above the skeleton scales by 0.01 or rotates
  * by 90 degrees. If AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
 
-/* Which matrices you pass. They map to world space or, if you set place_3x4, to the space that place_3x4
- * transforms to world space. */
+/* Which matrices you pass. They transform to world space. If you set place_3x4, they transform to its source
+ * space instead. */
 enum {
   /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them, one for each bone. Models
    * without bind data accept only this kind. */
@@ -265,14 +267,14 @@ enum {
 };
 typedef int32_t nook_pose_kind;
 
-/* The layout of one transform, all of floats. */
+/* The layout of one transform. All layouts consist of floats. */
 enum {
   /* 12 floats: three rows of rotation and scale | translation. */
   NOOK_TRANSFORM_ROWS_3X4 = 0,
   /* 16 floats: four rows, the last one 0 0 0 1, for column vectors: Ogre::Matrix4. */
   NOOK_TRANSFORM_ROWS_4X4 = 1,
-  /* 16 floats: four columns, the last one the translation and 1: glTF, glm, OpenGL, and the bytes of
-   * libraries of row vectors (DirectXMath, osg::Matrixf). */
+  /* 16 floats: four columns, the last one the translation and 1: glTF, glm, OpenGL. Also matrices of
+   * libraries with row vectors (DirectXMath, osg::Matrixf), as they are in memory. */
   NOOK_TRANSFORM_COLUMNS_4X4 = 2,
   /* 12 floats: four columns of three numbers, the last one the translation. */
   NOOK_TRANSFORM_COLUMNS_4X3 = 3,
@@ -285,12 +287,12 @@ typedef int32_t nook_transform_layout;
 
 /* Bits of nook_pose_desc.flags. */
 enum {
-  /* Bones without a transform keep their matrices. With this flag you can pose a character with several skins
-   * by one call for each skin. */
+  /* Bones without a transform keep their matrices. With this flag, you can pose a character that has several
+   * skins with one call for each skin. */
   NOOK_POSE_FLAG_PARTIAL = 1,
-  /* A bone that is sheared or scaled unevenly by more than 1 % fails, as with strict_poses. */
+  /* As with strict_poses, the call fails if a bone is sheared or scaled unevenly by more than 1 %. */
   NOOK_POSE_FLAG_STRICT = 2,
-  /* transform_count may be larger than needed, as in buffers of fixed size; Nook reads the first ones. */
+  /* transform_count may be larger than needed, as in buffers of fixed size. Nook ignores the surplus. */
   NOOK_POSE_FLAG_SURPLUS = 4
 };
 
@@ -304,7 +306,7 @@ typedef struct nook_pose_desc {
   /* An array of `transform_count` transforms, `stride` bytes apart (0: tightly packed). Must not be NULL. */
   const float* transforms;
   size_t stride;
-  /* The number of bones, or of joints of the skin. With transform_of_bone, any number from 1 to 65536. */
+  /* Must be the number of bones, or of the skin's joints. With transform_of_bone, it can be 1 to 65536. */
   uint32_t transform_count;
   /* For NOOK_POSE_SKINNING: the index of the skin in the file, default 0; see nook_model_describe_skin. */
   uint32_t skin;
@@ -326,8 +328,8 @@ static inline nook_result nook_pose_desc_init(nook_pose_desc* desc) {
 /* Sets the pose of an instance. Call it once per frame for each instance that moves, before the update. A
  * matrix may scale the body uniformly, and may mirror it. A bone whose axes are all zero shrinks to nothing.
  * On failure, the instance keeps its old pose. The call does not allocate. One at a time. Errors:
- * INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; if strict, also if a matrix shears, or
- * scales unevenly or to zero; the message names the bone), INVALID_HANDLE, UNSUPPORTED (the model has no bind
+ * INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; if strict, also if a matrix shears, scales
+ * unevenly or scales to zero; the message names the bone), INVALID_HANDLE, UNSUPPORTED (the model has no bind
  * data: bake it again from the glTF file, or pass NOOK_POSE_REST_TO_WORLD). */
 NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id instance,
                                          const nook_pose_desc* desc);
@@ -335,8 +337,7 @@ NOOK_API nook_result nook_scene_set_pose(nook_scene scene, nook_instance_id inst
 /* Converts a pose on any thread, such as your animation jobs. Pass the result to nook_scene_set_pose with
  * NOOK_POSE_REST_TO_WORLD and NOOK_TRANSFORM_ROWS_3X4. `bones_3x4` receives 12 floats for each bone of the
  * model. With NOOK_POSE_FLAG_PARTIAL, entries of bones without a transform are not changed. On failure,
- * `bones_3x4` may hold a part of the result. The call does not allocate. Any thread. Errors: as
- * nook_scene_set_pose. */
+ * `bones_3x4` may be partly written. Does not allocate. Any thread. Errors: as nook_scene_set_pose. */
 NOOK_API nook_result nook_model_convert_pose(nook_model model, const nook_pose_desc* desc, float* bones_3x4,
                                              uint32_t bone_count);
 
@@ -370,9 +371,9 @@ static inline nook_result nook_bone_map_desc_init(nook_bone_map_desc* desc) {
   return nook_desc_init(NOOK_DESC_BONE_MAP, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Finds the transform of each bone by name, for nook_pose_desc.transform_of_bone: an index into `names`, or
- * -1 if no name matches. bone_count must be the model's bone count. If several names are equal, the first one
- * is used. Bones of the same joint share its name. *unmatched receives the number of bones with -1;
+/* Finds each bone's transform by name, for nook_pose_desc.transform_of_bone: an index into `names`, or -1 if
+ * none matches. bone_count must be the model's bone count. If several names are equal, the first one is used.
+ * Bones that come from the same joint have the same name. *unmatched receives the number of bones with -1;
  * `unmatched` may be NULL. The call allocates. Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_map_bones(nook_model model, const nook_bone_map_desc* desc,
                                           int32_t* transform_of_bone, uint32_t bone_count,
@@ -398,7 +399,7 @@ typedef struct nook_check_vertex_info {
   uint32_t struct_size;
   /* The index of the vertex, in the order of nook_scene_read. */
   uint32_t vertex;
-  /* Its position in rest space, metres, and in the space of its mesh, as the file's POSITION attribute. */
+  /* Its position in rest space in metres, and its position in the mesh's space (the file's POSITION). */
   float position[3], mesh_position[3];
   /* The bone with the largest weight. */
   uint32_t bone;
@@ -430,7 +431,7 @@ enum {
   NOOK_POSE_FAULT_PLACE = 7,
   /* The transforms are the inverses of what is needed. */
   NOOK_POSE_FAULT_INVERTED = 8,
-  /* None of these faults explains the difference. Possibly another clip, frame or mesh. */
+  /* None of these faults explains the difference. Perhaps the clips, frames or meshes differ. */
   NOOK_POSE_FAULT_UNKNOWN = 9
 };
 typedef int32_t nook_pose_fault;
@@ -459,20 +460,20 @@ typedef struct nook_pose_check_info {
   /* The likely fault. */
   nook_pose_fault fault;
   /* The largest and the root mean square distance between your vertices and the model's, as shares of the
-   * model's bounding radius times the scale of the place. */
+   * model's bounding radius times the scale of `place_3x4`. */
   float max_error, rms_error;
   /* The bone with the largest weight at the farthest vertex. */
   uint32_t worst_bone;
   /* For NOOK_POSE_FAULT_NO_BIND and NOOK_POSE_FAULT_SKIN: the index of the skin that fits, otherwise 0. */
   uint32_t fitting_skin;
-  /* For NOOK_POSE_FAULT_UNIT: the factor from the pose's length unit to the vertices' unit, otherwise 1. */
+  /* For NOOK_POSE_FAULT_UNIT: multiply lengths of the pose by this to get the vertices' unit; otherwise 1. */
   float scale;
   /* The result as text. It also lists all other faults that would explain the difference. */
   char text[512];
 } nook_pose_check_info;
 
-/* Compares a pose with vertices that you skinned yourself, and names the likely fault in info->fault; the
- * call itself returns OK. Use a frame of a clip: in the bind pose, all matrices are equal. The call
+/* Compares a pose with vertices that you skinned yourself. Sets info->fault to the likely fault and returns
+ * OK. Use a frame of a clip: in the bind pose, all matrices are equal, which hides faults. The call
  * allocates. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the model has no bind data),
  * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_check_pose(nook_model model, const nook_pose_desc* desc,
@@ -484,7 +485,7 @@ NOOK_API nook_result nook_model_check_pose(nook_model model, const nook_pose_des
  * once and remap the model. The new model gives AO in your order on every tier. For a mesh with other
  * vertices, such as a level of detail, see experimental/nook_lod.h. */
 
-/* The constants for every primitive of the file, and for a vertex without a match. */
+/* NOOK_ALL_PRIMITIVES selects every primitive of the file. NOOK_NO_VERTEX marks a vertex without a match. */
 enum { NOOK_ALL_PRIMITIVES = -1 };
 #define NOOK_NO_VERTEX 0xffffffffu
 
@@ -508,8 +509,8 @@ typedef struct nook_vertex_match_desc {
    * means 1e-4, which is enough for 16-bit positions. */
   float tolerance;
   /* NULL (default), or `influences` joints and weights for each vertex (1 to 8, default 4); strides are in
-   * bytes. They distinguish vertices where meshes meet. Joints are of the skin `skin` (default 0), or
-   * bones. */
+   * bytes. They distinguish vertices where meshes meet. Joint indices refer to the joints of the skin `skin`
+   * (default 0), or to bones if the model has no skins. */
   const uint16_t* joints;
   size_t joint_stride;
   const float* weights;
@@ -536,19 +537,20 @@ NOOK_API nook_result nook_model_match_vertices(nook_model model, const nook_vert
                                                uint32_t* vertices, nook_vertex_match_info* info);
 
 /* Creates a model whose vertex i is vertex vertices[i] of the given model; everything else is copied. Each
- * new primitive is a range of vertices whose meshes share a space; most files give one. On failure *out is
- * NULL.
+ * primitive of the new model is a range of vertices whose meshes have the same space. For most files, there
+ * is only one primitive. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT (also for NOOK_NO_VERTEX; the message names it), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_remap(nook_model model, const uint32_t* vertices, uint32_t count,
                                       nook_model* out);
 
 /* ---- Capsules: what darkens the world ---- */
 
-/* A model has at most this many capsules. A light's cone is divided into this many parts (nook_world.h). */
+/* A model has at most MAX_CASTERS capsules. Nook divides a light's cone into CONE_PARTS parts
+ * (nook_world.h). */
 #define NOOK_WORLD_MAX_CASTERS 64
 #define NOOK_WORLD_CONE_PARTS 16
 
-/* All points around the segment from a to b, within a radius that changes linearly from a to b. Metres. */
+/* The points around the segment from `a` to `b`, within a radius that changes linearly. In metres. */
 typedef struct nook_capsule {
   float a[3];
   float radius_a;

@@ -82,14 +82,14 @@ class CharacterModel : public Unique<nook_model, nook_model_destroy> {
     check(nook_model_map_bones(get(), &desc, map.data(), static_cast<std::uint32_t>(map.size()), nullptr));
     return map;
   }
-  // index is less than info().check_vertex_count.
+  // `index` must be less than info().check_vertex_count.
   nook_check_vertex_info check_vertex(std::uint32_t index) const {
     nook_check_vertex_info vertex{};
     vertex.struct_size = sizeof vertex;
     check(nook_model_describe_check_vertex(get(), index, &vertex));
     return vertex;
   }
-  // index is less than info().skin_count.
+  // `index` must be less than info().skin_count.
   nook_skin_info skin(std::uint32_t index) const {
     nook_skin_info skin{};
     skin.struct_size = sizeof skin;
@@ -103,7 +103,8 @@ class CharacterModel : public Unique<nook_model, nook_model_destroy> {
     check(nook_model_check_pose(get(), &desc, &vertices, &info));
     return info;
   }
-  // Returns the model in the order of your vertices. vertices[i] is this model's vertex for your vertex i.
+  // Returns a copy of the model in the order of your vertices. vertices[i] is the index of your vertex i in
+  // this model.
   CharacterModel remap(const std::vector<std::uint32_t>& vertices) const {
     nook_model handle = nullptr;
     check(nook_model_remap(get(), vertices.data(), static_cast<std::uint32_t>(vertices.size()), &handle));

@@ -30,7 +30,7 @@ class Clips : public Unique<nook_clips, nook_clips_destroy> {
     check(nook_clips_describe_clip(get(), index, &info));
     return info;
   }
-  // Returns the number of clips if none has this name.
+  // Returns the index of a clip, or the number of clips if none has this name.
   std::uint32_t find(std::string_view name) const {
     const std::uint32_t count = info().clip_count;
     std::uint32_t index = 0;

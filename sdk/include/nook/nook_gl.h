@@ -28,10 +28,10 @@ extern "C" {
 /* Returns the address of an OpenGL function, or NULL. Nook calls it only inside nook_gl_create. */
 typedef void* (*nook_gl_proc_fn)(void* user, const char* name);
 
-/* The tiers, for max_tier and nook_gl_info. 43 and ES31 evaluate spheres, shadows and vertices in compute
- * shaders. 33 and ES30 evaluate shadows at key points on the CPU, through the context's parallel_for, and
- * vertices by transform feedback. They are faster on software renderers such as Mesa's llvmpipe. As max_tier,
- * 33 and ES30 mean the same, and so do 43 and ES31. */
+/* The tiers: how Nook evaluates characters. Tiers 43 and ES31 evaluate spheres, shadows and vertices in
+ * compute shaders. Tiers 33 and ES30 evaluate shadows at key points on the CPU, through the context's
+ * parallel_for, and vertices by transform feedback. They are faster on software renderers such as Mesa's
+ * llvmpipe. As max_tier, 33 and ES30 mean the same, and so do 43 and ES31. */
 enum {
   NOOK_GL_TIER_BEST = 0,
   NOOK_GL_TIER_33 = 33,
@@ -47,7 +47,8 @@ typedef int32_t nook_gl_tier;
 enum {
   /* Each call queries the state and restores it. A query may stall a threaded driver. */
   NOOK_GL_STATE_PRESERVE = 0,
-  /* Nook reads no state, and sets what it changed to OpenGL's defaults. For WebGL, where reads stall. */
+  /* Nook reads no state, and sets what it changed to OpenGL's defaults. Use it on WebGL, where reads
+   * stall. */
   NOOK_GL_STATE_DEFAULTS = 1,
   /* Nook reads no state, and leaves the state that it changed undefined, so you must set it again. Rasterizer
    * discard and primitive restart are left disabled. */
@@ -58,7 +59,7 @@ typedef int32_t nook_gl_state_mode;
 typedef struct nook_gl_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Required. Nook passes get_proc_user as its first argument. */
+  /* Required. The first argument of each call is get_proc_user. */
   nook_gl_proc_fn get_proc;
   void* get_proc_user;
   /* The highest tier to use; default NOOK_GL_TIER_BEST. state_mode is NOOK_GL_STATE_PRESERVE by default. */
@@ -73,15 +74,14 @@ static inline nook_result nook_gl_desc_init(nook_gl_desc* desc) {
   return nook_desc_init(NOOK_DESC_GL, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Loads functions and compiles shaders for the current OpenGL context. Host memory comes from the context's
- * allocator, except for one small allocation of the function loader. On failure *out is NULL and no OpenGL
- * object is left. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the message names the OpenGL version
- * or the missing function), GL, OUT_OF_MEMORY. */
+/* Loads OpenGL functions and compiles shaders for the current OpenGL context. Host memory comes from the
+ * context's allocator, except for one small allocation of the function loader. On failure *out is NULL and no
+ * OpenGL object is left. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the message names the OpenGL
+ * version or the missing function), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_create(nook_context context, const nook_gl_desc* desc, nook_gl* out);
 
-/* Deletes every OpenGL object that gl created and sets *gl to NULL; *gl may be NULL. You may have destroyed
- * the context and the scenes before. After nook_gl_context_lost the call needs no OpenGL context.
- * Context thread. */
+/* Deletes all OpenGL objects of `gl` and sets *gl to NULL; *gl may be NULL. You may destroy the nook_context
+ * and the scenes first. After nook_gl_context_lost, no OpenGL context is needed. Context thread. */
 NOOK_API void nook_gl_destroy(nook_gl* gl);
 
 /* Tells Nook that the OpenGL context is lost: `gl` forgets all OpenGL names and makes no OpenGL call.
@@ -109,11 +109,11 @@ NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
 
 /* Evaluates the AO of all instances on the GPU. Call it in place of nook_scene_update; the values agree
- * within 2e-3, plus the change that far_error allows on the CPU. The call allocates host memory only if you
- * added instances, or set first lights or more lobes than before. It never waits for the GPU. No other call
- * may use the scene during this call. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as
- * nook_gl_scene_prepare; also if the lights exceed the texture buffer of this OpenGL, which has at least
- * 65,536 texels; each light takes 12 + 2 * lobes), GL, OUT_OF_MEMORY. */
+ * within 2e-3, plus the change that far_error allows on the CPU. The call allocates host memory only after
+ * you added instances, gave an instance its first light or set more lobes than before. It never waits for the
+ * GPU. No other call may use the scene during this call. Context thread. Errors: INVALID_ARGUMENT,
+ * UNSUPPORTED (as nook_gl_scene_prepare; also if the lights exceed the largest texture buffer of this OpenGL,
+ * at least 65,536 texels; each light takes 12 + 2 * lobes texels), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene);
 
 /* Where an instance's values are stored. Each vertex has one float in [0, 1] for NOOK_CHANNEL_AO, or three
@@ -129,8 +129,8 @@ typedef struct nook_gl_view {
   uint32_t count;
   /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: Nook's texture buffer with the lights of the scene. */
   uint32_t texture;
-  /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: the instance's light, the first argument of the GLSL functions;
-   * valid until the next update. */
+  /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: the index of the instance's light, which is the first argument
+   * of the GLSL functions; valid until the next update. */
   int32_t light;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, with the functions nook_scene_*. The text
    * is the same for every scene and channel, and valid while the library is loaded. */
@@ -147,7 +147,7 @@ typedef struct nook_gl_view {
 NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                         nook_channel channel, nook_gl_view* view);
 
-/* Copies the values of a view to host memory, for count vertices in the order of nook_scene_read. The call
+/* Copies the values of a view to host memory: `count` vertices in the order of nook_scene_read. The call
  * WAITS FOR THE GPU: use it in tests and tools. Context thread. Errors: those of nook_gl_scene_view. */
 NOOK_API nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                         nook_channel channel, float* out, uint32_t count);
@@ -156,29 +156,30 @@ NOOK_API nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_insta
 typedef struct nook_gl_ao_target {
   /* sizeof(nook_gl_ao_target). */
   uint32_t struct_size;
-  /* The number format in a buffer. A texture uses its own format. On OpenGL ES, uploads do not convert, so
-   * set the texture's format here: NOOK_FORMAT_FLOAT for GL_R32F, _HALF for GL_R16F, _UNORM8 for GL_R8. */
+  /* The format of the values in a buffer. In a texture, values have the texture's format. On OpenGL ES,
+   * uploads do not convert, so set the texture's format here: NOOK_FORMAT_FLOAT for GL_R32F, _HALF for
+   * GL_R16F, _UNORM8 for GL_R8. */
   nook_format format;
   /* The OpenGL name of a buffer that is not mapped, or 0. */
   uint32_t buffer;
   /* The OpenGL name of a GL_TEXTURE_2D with a red channel of floats or normalised integers, or 0. The value
    * of vertex i goes to texel i, row by row. */
   uint32_t texture;
-  /* The offset of the first value: bytes, a multiple of 4, or texels. */
+  /* The offset of the first value. In a buffer: bytes, a multiple of 4; in a texture: texels. */
   uint64_t offset;
-  /* From one instance's values to the next: bytes, a multiple of 4, or texels. Only read if count > 1. */
+  /* The next instance's values follow at this distance, in the same units. Only read if count > 1. */
   uint64_t instance_stride;
   /* Bytes between the starts of two values in a buffer, a multiple of 4, for AO interleaved with other vertex
    * attributes; each value then uses 4 whole bytes. Needs compute shaders. 0: tightly packed; the bytes of an
    * instance are padded to a multiple of 4, and the padding is overwritten. */
   uint32_t stride;
-  /* Texels. Required on OpenGL ES 3.0 and WebGL 2. Elsewhere, 0 lets Nook query it from OpenGL. */
+  /* In texels. Required on OpenGL ES 3.0 and WebGL 2. Elsewhere, if 0, Nook queries it from OpenGL. */
   uint32_t texture_width;
 } nook_gl_ao_target;
 
-/* Copies the AO of the last nook_gl_scene_update to a buffer or texture of yours on the GPU, for count
- * instances one after another. You need no barrier before vertex fetches, texture fetches and buffer reads.
- * The call does not wait for the GPU. The first call with a format creates a program.
+/* Copies the AO of the last nook_gl_scene_update to a buffer or texture of yours on the GPU. The values of
+ * `count` instances follow one another. You need no barrier before vertex fetches, texture fetches and buffer
+ * reads. The call does not wait for the GPU. The first call with a format creates a program.
  * Context thread. Errors: INVALID_ARGUMENT (also if the target is too small), INVALID_HANDLE (an id is
  * unknown, or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
 NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
@@ -198,14 +199,14 @@ NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const noo
  * text and the text of a probe upload, in any order. The values agree with nook_scene_read within 4e-3; the
  * difference comes from two approximate square roots per term. */
 
-/* Deletes the OpenGL objects that `gl` holds for a scene, but not the scene. The views of its instances
- * become invalid. Without this call, the next update or nook_gl_destroy deletes the objects of a destroyed
- * scene. Context thread. Errors: INVALID_ARGUMENT, GL. */
+/* Deletes the OpenGL objects that `gl` holds for a scene, but not the scene. The views of the scene's
+ * instances become invalid. Without this call, the objects of a destroyed scene are deleted by the next
+ * update or by nook_gl_destroy. Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
 
 /* ---- A frame of the host ----
  *
- * The images and the camera of one of your frames, for nook_nnao_render and nook_world_render. */
+ * These structs describe the images and the camera of a frame, for nook_nnao_render and nook_world_render. */
 
 /* The contents of a depth texture. */
 enum {
@@ -226,27 +227,28 @@ typedef int32_t nook_depth_kind;
 enum { NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE = 0, NOOK_CLIP_SPACE_ZERO_TO_ONE = 1 };
 typedef int32_t nook_clip_space;
 
-/* How a pass combines its result s with AO that you draw into a texture yourself (G-buffer AO). c is the red
- * channel of the texture: AO of another kind, such as from nook_gl_scene_update, and 1 where there is none. w
- * is its green channel, a weight. */
+/* How a pass combines its AO, s, with AO that you draw into a texture yourself (G-buffer AO). The red channel
+ * of your texture, c, is AO of another kind, such as from nook_gl_scene_update, and 1 where there is none.
+ * The green channel, w, is a weight. */
 enum {
-  /* s. */
+  /* The result is s. */
   NOOK_GBUFFER_AO_NONE = 0,
   /* min(s, c): occlusion that both s and c contain is applied only once. */
   NOOK_GBUFFER_AO_MIN = 1,
   /* min(s, c) / c: for an image that is already multiplied by c, so that the product is min(s, c). */
   NOOK_GBUFFER_AO_REMAINDER = 2,
-  /* (1 - w) s + w c: where w is 1, only the G-buffer AO counts. */
+  /* (1 - w) s + w c: where w is 1, the result is the G-buffer AO alone. */
   NOOK_GBUFFER_AO_REPLACE = 3,
   /* (1 - w) s + w c. In addition, surfaces with w > 0.5 do not occlude in the screen pass. Use it for
-   * characters that darken the world by their capsules in nook_world_render, so that they do it only once. */
+   * characters that darken the world by their capsules in nook_world_render, so that they darken it only
+   * once. */
   NOOK_GBUFFER_AO_EXCLUDE = 4
 };
 typedef int32_t nook_gbuffer_ao;
 
 /* Where a pass writes its result. */
 enum {
-  /* The pass's own texture; see nook_nnao_info and nook_world_info. */
+  /* A texture that the pass owns; see nook_nnao_info and nook_world_info. */
   NOOK_TARGET_OWN = 0,
   /* Level 0 of a 2D texture of yours, or of a texture array for passes with views. */
   NOOK_TARGET_TEXTURE = 1,
@@ -260,41 +262,41 @@ typedef int32_t nook_target;
 enum {
   /* The target becomes (ao, ao, ao, 1), or the bent normal and ao; see nook_nnao_desc.bent_normals. */
   NOOK_BLEND_WRITE = 0,
-  /* The target's colour is multiplied by ao, and its alpha stays. Not with NOOK_TARGET_OWN. */
+  /* The target's colour is multiplied by ao; its alpha is not changed. Not with NOOK_TARGET_OWN. */
   NOOK_BLEND_MULTIPLY = 1
 };
 typedef int32_t nook_blend;
 
 /* One frame. Textures are 2D and single-sampled, unless you created the pass for views or samples. The pass
- * reads width x height texels of level 0, through its own samplers. The pass remembers the last four sets of
- * names, kinds and sizes, and queries OpenGL when a set is new or returns for the first time. */
+ * reads width x height texels of level 0, through its own samplers. The pass remembers the last four
+ * different sets of textures. It queries OpenGL for each new set, and once more when the set returns. */
 typedef struct nook_gl_frame_desc {
   uint32_t struct_size, type;
   const void* next;
   /* The size of every texture of the frame in pixels, at most the maximum size of the pass. Required. */
   int32_t width, height;
-  /* x, y, width and height of the part that `projection` covers, in pixels. Nook reads and writes nothing
-   * outside it. All 0 (default): the whole frame. */
+  /* x, y, width and height, in pixels, of the part of the images that `projection` covers. Nook reads and
+   * writes nothing outside it. All 0 (default): the whole frame. */
   int32_t viewport[4];
-  /* Required; depth_kind is NOOK_DEPTH_HARDWARE by default. */
+  /* The depth texture is required. The default depth_kind is NOOK_DEPTH_HARDWARE. */
   uint32_t depth_texture;
   nook_depth_kind depth_kind;
-  /* Metres, for linear depth only: this depth and greater ones are sky, where AO is exactly 1. 0 (default):
-   * no limit. These are sky too: a depth that is not finite, a depth <= 0 in a perspective projection, and
-   * the far plane of hardware depth. */
+  /* Only for linear depth, in metres: pixels at this depth or beyond are sky, where AO is exactly 1. 0
+   * (default): no limit. Pixels are also sky if their depth is not finite, is <= 0 in a perspective
+   * projection, or is hardware depth at the far plane. */
   float sky_depth;
   /* For logarithmic depth: C in 1 / metres, > 0, default 1; n in metres, >= 0, default 0; f in metres, > n,
    * required. */
   float depth_log_scale, depth_log_near, depth_log_far;
-  /* 0 (default): the pass reconstructs normals from depth. */
+  /* A texture of normals. 0 (default): the pass reconstructs normals from depth. */
   uint32_t normal_texture;
-  /* The normal is normal_matrix * (texel * normal_scale + normal_bias), then normalised. Defaults 1 and 0;
-   * normals that are stored as (n + 1) / 2 need 2 and -1. Normals shorter than 0.001 (0.25 in normalised
-   * integers) are reconstructed from depth, so clear the texture to n = 0. */
+  /* The normal is normal_matrix * (texel * normal_scale + normal_bias), then normalised. The defaults are 1
+   * and 0; normals that are stored as (n + 1) / 2 need 2 and -1. Normals shorter than 0.001 (0.25 in
+   * normalised integers) are reconstructed from depth, so clear the texture to n = 0. */
   float normal_scale, normal_bias;
-  /* Column-major, from the space of the normals to view space. The identity by default. */
+  /* Transforms normals to view space; column-major. The identity by default. */
   float normal_matrix[9];
-  /* Column-major; required. Perspective, off-centre, orthographic, reversed-depth, infinite or oblique. */
+  /* Column-major; required. It may be off-centre, orthographic, reversed-depth, infinite or oblique. */
   float projection[16];
   /* From world space to view space, column-major: a rotation and a translation. The identity by default. The
    * world pass needs it. With max_history_frames, the screen pass uses it to follow surfaces into the next
@@ -302,7 +304,7 @@ typedef struct nook_gl_frame_desc {
   float view[16];
   /* Only hardware depth uses it. Default NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE. */
   nook_clip_space clip_space;
-  /* Default NOOK_GBUFFER_AO_NONE; all other values require the texture. */
+  /* Default NOOK_GBUFFER_AO_NONE. All other values require gbuffer_ao_texture. */
   nook_gbuffer_ao gbuffer_ao;
   uint32_t gbuffer_ao_texture;
   /* Default NOOK_TARGET_OWN. */
@@ -314,8 +316,8 @@ typedef struct nook_gl_frame_desc {
   nook_blend blend;
   /* Set 1 if you recreated a texture or target under an old name since the last call. Default 0. */
   int32_t textures_changed;
-  /* For passes with views: 16, 16 and 9 numbers for each view, which replace `projection`, `view` and
-   * `normal_matrix`. NULL (default): all views use the single matrix above. */
+  /* For passes with views: matrices of 16, 16 and 9 floats for each view, which replace `projection`, `view`
+   * and `normal_matrix`. NULL (default): all views use the single matrix above. */
   const float* view_projections;
   const float* view_matrices;
   const float* view_normal_matrices;
@@ -345,22 +347,23 @@ typedef struct nook_gl_upload_info {
   /* The number of textures, at most 16. A draw needs as many texture units. */
   uint32_t texture_count;
   nook_gl_upload_texture textures[16];
-  /* The memory of all textures. On OpenGL ES, texture buffers become textures with rows of 2048 texels. */
+  /* The memory of all textures. On OpenGL ES, a 2D texture with 2048 texels per row replaces a texture
+   * buffer. */
   uint64_t bytes;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, valid until you update or destroy the
    * upload. All names in Nook's GLSL begin with nook_, Nook or NOOK_. */
   const char* glsl;
   /* The name of a uniform for constants, or NULL: nook_grid_frame for a grid, nook_clip_vec4s for clips. */
   const char* constant;
-  /* Its values: constant_vec4s * 4 floats for glUniform4fv; if constant_vec4s is 0, an integer for
-   * glUniform1i. */
+  /* The values: constant_vec4s * 4 floats for glUniform4fv, or an int for glUniform1i if constant_vec4s is
+   * 0. */
   float constant_values[16];
   uint32_t constant_vec4s;
   /* 1: the grid has walls, and each surface uses only the probes on its side of a wall. */
   int32_t walls;
 } nook_gl_upload_info;
 
-/* Describes an upload, for your shaders and for hosts that bind textures themselves, without an OpenGL call.
+/* Describes an upload, for your shaders, and for engines that bind textures themselves. Makes no OpenGL call.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_upload_info* info);
 
@@ -374,14 +377,13 @@ NOOK_API nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_uplo
 NOOK_API nook_result nook_gl_upload_bind(nook_gl_upload upload, uint32_t program, uint32_t first_unit);
 
 /* Deletes the OpenGL objects and sets *upload to NULL; *upload may be NULL. You may destroy the nook_gl
- * before, but its OpenGL context must be current; after nook_gl_context_lost none is needed. Context
- * thread. */
+ * first. Its OpenGL context must be current, unless it was lost (nook_gl_context_lost). Context thread. */
 NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
 
 /* ---- Probes in shaders ----
  *
- * LOBES stores the lobes of a probe or a grid in a texture buffer for the sampler nook_probe_texels. Your
- * shader:
+ * The form LOBES stores the lobes of a probe or a grid in a texture buffer, for the sampler
+ * nook_probe_texels. Your shader:
  *     NookProbeSurface surface =
  *         NookProbeSurface(normal_ws, view_ws, tangent_ws, vec2(alpha_x, alpha_y), reflectance);
  *     NookProbePlace place = nook_probe_place(position_ws);  // once: the probes around a point
@@ -391,10 +393,10 @@ NOOK_API void nook_gl_upload_destroy(nook_gl_upload* upload);
  *               nook_probe_specular_occlusion(ao, n_dot_v, roughness);
  * For a single lobe, such as one in a uniform block, call nook_sg_lobe_radiance, nook_sg_lobe_irradiance and
  * so on; shaders/probe documents them. NookLobe has the layout of nook_lobe in std140 and std430. The GLSL
- * agrees with nook_probe.h within 1e-4 of the largest value, and is the same for every probe. Forms SH and
- * ZH3 keep a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters. SH takes 7
- * fetches per pixel, and ZH3 takes 4, or up to 40 if the grid has walls. Both are smaller and faster than
- * lobes. The sampler is nook_grid_texels, and the constant is nook_grid_frame. Your shader:
+ * agrees with nook_probe.h within 1e-4 of the largest value, and is the same for every probe. The forms SH
+ * and ZH3 store a grid of diffuse light in a 3D texture of GL_RGBA16F, which the hardware filters. SH takes 7
+ * fetches per pixel, and ZH3 takes 4, or up to 40 if the grid has walls. Both forms are smaller and faster
+ * than lobes. The sampler is nook_grid_texels, and the constant is nook_grid_frame. Your shader:
  *     vec3 e = nook_grid_irradiance(position_ws, normal_ws);
  * experimental/nook_capture.h fills these textures at run time from cube maps that your engine renders. */
 
@@ -421,9 +423,9 @@ NOOK_API nook_result nook_gl_upload_probe(nook_gl gl, nook_probe probe, nook_gl_
                                           nook_gl_upload* out);
 
 /* Replaces the probe or grid of an upload, in the same form. The textures keep their names. Draws that you
- * issued before still read the old values. The constant changes if the box of the grid changes. The GLSL
- * changes if only one of the two grids has walls. On failure the upload keeps the old probe.
- * Context thread. Errors: those of nook_gl_upload_probe, INVALID_ARGUMENT (the upload is not a probe). */
+ * issued before still read the old values. The upload's constant changes if the box of the grid changes. The
+ * GLSL changes if only one of the old and the new grid has walls. On failure the upload keeps the old probe.
+ * Context thread. Errors: those of nook_gl_upload_probe, INVALID_ARGUMENT (the upload has no probe). */
 NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe probe);
 
 /* ---- Materials in shaders ----
@@ -434,23 +436,25 @@ NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe prob
  *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
  *     colour = nook_material_radiance(modes, light) * irradiance;
  *     alpha = nook_material_visibility(nook_material_occlusion(uv, dFdx(uv), dFdy(uv), view));
- * Both functions filter a pixel by one fetch per mode, at the mipmap level of the pixel's longer side. This
- * blurs grazing views. The following functions take several fetches along that side and stay sharp; `fetches`
- * is a constant from 1 to NOOK_MATERIAL_MAX_FETCHES (see nook_material_evaluate):
+ * nook_material_decode and nook_material_occlusion take one fetch per mode, at the mipmap level of the
+ * pixel's longer side. This blurs grazing views. The following functions stay sharp, because they take
+ * several fetches along the longer side; `fetches` is a constant from 1 to NOOK_MATERIAL_MAX_FETCHES (see
+ * nook_material_evaluate):
  *     nook_material_decode_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches, modes);
  *     alpha = nook_material_visibility(
  *         nook_material_occlusion_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches));
- * Each fetch beyond the first costs further_decode_fetches of nook_material_info. The `modes` of a neural
- * material are values inside its network, so you cannot add or mix them. Silhouettes of the meso-structure
- * need two passes over the same triangles. In the first, draw pixels with alpha = 1 and discard the others.
- * In the second, blend pixels with 0 < alpha < 1 by alpha, with depth test but without depth writes. */
+ * Each additional fetch of `fetches` costs further_decode_fetches texel fetches (nook_material_info). The
+ * `modes` of a neural material are values inside its network, so you cannot add or mix them. Silhouettes of
+ * the meso-structure need two passes over the same triangles. In the first, draw pixels with alpha = 1 and
+ * discard the others. In the second, blend pixels with 0 < alpha < 1 by alpha, with depth test but without
+ * depth writes. */
 
 /* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials with the same
  * sizes and visibility mapping have the same GLSL and may share a program; a neural material needs its own.
- * The uniform vec2 nook_visibility_mapping (a constant on OpenGL ES) holds threshold and weight; its initial
- * values are the material's. On failure *out is NULL and no OpenGL object is left. Context thread. Errors:
- * INVALID_ARGUMENT, UNSUPPORTED (the material needs more texture units, larger textures or other blocks than
- * this OpenGL supports), GL, OUT_OF_MEMORY. */
+ * The uniform vec2 nook_visibility_mapping (a constant on OpenGL ES) holds threshold and weight; at first,
+ * they are the values of the material. On failure *out is NULL and no OpenGL object is left. Context thread.
+ * Errors: INVALID_ARGUMENT, UNSUPPORTED (the material needs more texture units, larger textures or other
+ * blocks than this OpenGL supports), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_upload_material(nook_gl gl, nook_material material, nook_gl_upload* out);
 
 /* ---- Clips in shaders ----
@@ -458,8 +462,8 @@ NOOK_API nook_result nook_gl_upload_material(nook_gl gl, nook_material material,
  * Your vertex shader decodes the AO of baked clips (nook_clips.h). nook_clips_frames computes `frames` and
  * `share` for each character; pass both as uniforms or as instance attributes. Your shader:
  *     float ao = nook_clip_ao(gl_VertexID, frames, share);
- * The first argument is the index of a file vertex. If gl_VertexID is another index, pass the file vertex as
- * an attribute. For each vertex, the shader reads mode_count / 4 texels of modes and twice as many texels of
+ * The first argument is the index of a file vertex. If gl_VertexID has another order, pass the index as an
+ * attribute. For each vertex, the shader reads mode_count / 4 texels of modes and twice as many texels of
  * weights; the weights are the same for all vertices of a character. */
 
 /* Uploads clips, which you may destroy afterwards, as two GL_TEXTURE_2Ds for the samplers nook_clip_modes and

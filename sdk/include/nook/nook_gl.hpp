@@ -23,7 +23,7 @@ inline nook_gl_desc gl_desc() {
   return desc;
 }
 
-// You must set the size, the depth texture and the projection, and the view if the camera moves.
+// You must set the size, the depth texture and the projection. If the camera moves, also set the view.
 inline nook_gl_frame_desc gl_frame_desc() {
   nook_gl_frame_desc desc;
   check(nook_gl_frame_desc_init(&desc));
@@ -50,7 +50,7 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     return memory;
   }
   void prepare(const Scene& scene) { check(nook_gl_scene_prepare(get(), scene.get())); }
-  // Replaces scene.update().
+  // Call it instead of scene.update().
   void update(Scene& scene) { check(nook_gl_scene_update(get(), scene.get())); }
   nook_gl_view view(const Scene& scene, nook_instance_id id, nook_channel channel = NOOK_CHANNEL_AO) const {
     nook_gl_view view{};
@@ -85,14 +85,14 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
 class Upload : public Unique<nook_gl_upload, nook_gl_upload_destroy> {
  public:
   Upload() = default;
-  // Takes over a handle, such as one that a function of an experimental header made.
+  // Takes ownership of a handle, such as one that you got from a function of an experimental header.
   explicit Upload(nook_gl_upload handle) : Unique(handle) {}
   Upload(const Gl& gl, nook_probe probe, nook_gl_probe_form form) : Unique(create(gl, probe, form)) {}
   Upload(const Gl& gl, const Material& material) : Unique(create(gl, material)) {}
 
   Upload(const Gl& gl, const Clips& clips) : Unique(create(gl, clips)) {}
 
-  // Replaces the probe of an upload of a probe.
+  // Replaces the probe of this upload, which must hold one.
   void update(nook_probe probe) { check(nook_gl_update_probe(get(), probe)); }
   nook_gl_upload_info info() const {
     nook_gl_upload_info info{};
@@ -100,7 +100,7 @@ class Upload : public Unique<nook_gl_upload, nook_gl_upload_destroy> {
     check(nook_gl_upload_describe(get(), &info));
     return info;
   }
-  // Afterwards the program is in use and the textures are bound.
+  // After the call, the program is in use and the textures are bound.
   void bind(std::uint32_t program, std::uint32_t first_unit) const {
     check(nook_gl_upload_bind(get(), program, first_unit));
   }

@@ -1,6 +1,6 @@
 // The common part of the C++17 wrappers: failed calls throw nook::Error, and handles destroy their objects.
 // The wrappers are header-only, so that no C++ type crosses the library's boundary. The C headers document
-// every function, its thread contract included.
+// every function and its thread contract.
 #ifndef NOOK_HANDLE_HPP
 #define NOOK_HANDLE_HPP
 
@@ -19,7 +19,8 @@ namespace nook {
 // nook::Scene.
 inline namespace wrapper {
 
-// A failed call. what() is the message of nook_last_message(), or of the library that failed.
+// A failed call. what() returns the text of nook_last_message(), or of the same function of the library that
+// failed.
 class Error : public std::runtime_error {
  public:
   explicit Error(nook_result result) : Error(result, nook_last_message()) {}
@@ -35,7 +36,7 @@ inline void check(nook_result result) {
   if (result != NOOK_OK) throw Error(result);
 }
 
-// Owns one handle; the C functions take get().
+// Owns one handle. Pass get() to the C functions.
 template <class Handle, void (*destroy)(Handle*)>
 class Unique {
  public:

@@ -5,12 +5,12 @@
  *     nook_probe_fit_solve(fit, &probe);                                       at any time
  * Directions are unit vectors that point away from the probe. Radiance is linear RGB in any unit, and
  * irradiance is in your unit times steradians; a Lambertian surface reflects albedo / pi * irradiance * AO.
- * Arrays of directions and colours hold three floats for each entry, without padding.
- * A probe holds R(s) = sum_i b_i B_i(s), with an RGB coefficient b_i for each function B_i. For spherical
- * Gaussians, called lobes, B_i(s) = exp(sharpness_i (dot(axis_i, s) - 1)), and b_i is the amplitude. An
- * ambient term is a lobe of sharpness 0. A fit minimises the integral of (R - f)^2 over its domain, where f
- * is the radiance (T. Roughton, progressive least squares, 2018). docs/probes.md has the equations, and
- * experimental/nook_sg.h the arithmetic of lobes and spherical harmonics. */
+ * Arrays of directions and colours hold three floats for each entry, without padding. A probe stores R(s),
+ * the sum of b_i B_i(s) over i; b_i is the RGB coefficient of the function B_i. For spherical Gaussians,
+ * called lobes, B_i(s) = exp(sharpness_i (dot(axis_i, s) - 1)), and b_i is the amplitude. An ambient term is
+ * a lobe of sharpness 0. A fit minimises the integral of (R - f)^2 over its domain, where f is the radiance
+ * (T. Roughton, progressive least squares, 2018). docs/probes.md has the equations, and
+ * experimental/nook_sg.h has functions for the arithmetic of lobes and spherical harmonics. */
 #ifndef NOOK_PROBE_H
 #define NOOK_PROBE_H
 
@@ -22,7 +22,7 @@ extern "C" {
 
 /* The basis functions of a probe. */
 enum {
-  /* Lobes, and an ambient term if the descriptor asks for one: 3 floats for each. */
+  /* Lobes, and an ambient term if you set nook_probe_fit_desc.ambient; 3 floats for each. */
   NOOK_PROBE_BASIS_LOBES = 0,
   /* Real spherical harmonics (SH) of bands 0 to order, orthonormal over the sphere. */
   NOOK_PROBE_BASIS_SH = 1
@@ -40,14 +40,14 @@ typedef int32_t nook_probe_domain;
 /* ---- Fits ---- */
 
 /* The method of a fit. NON_NEGATIVE methods keep all coefficients >= 0. Use them for small bright sources,
- * where an unconstrained fit rings below 0. They need NOOK_PROBE_BASIS_LOBES. */
+ * where an unconstrained fit has negative ringing. They need NOOK_PROBE_BASIS_LOBES. */
 enum {
   /* The most accurate method for any number of samples. Merging fits is exact. */
   NOOK_PROBE_FIT_LEAST_SQUARES = 0,
   /* Least squares without negative coefficients. Merging fits is exact. */
   NOOK_PROBE_FIT_LEAST_SQUARES_NON_NEGATIVE = 1,
-  /* Recursive least squares by blocks of 1,024 samples, with a solution after every sample. Its error
-   * converges to the error of LEAST_SQUARES. */
+  /* Recursive least squares in blocks of 1,024 samples; you can solve after every sample. The error converges
+   * to the error of LEAST_SQUARES. */
   NOOK_PROBE_FIT_RUNNING_AVERAGE = 2,
   /* A running average without negative coefficients: the non-negative solution nearest to RUNNING_AVERAGE. */
   NOOK_PROBE_FIT_RUNNING_AVERAGE_NON_NEGATIVE = 3
@@ -60,14 +60,13 @@ typedef struct nook_probe_fit_desc {
   const void* next;
   /* Default NOOK_PROBE_FIT_LEAST_SQUARES. */
   nook_probe_method method;
-  /* Default NOOK_FORM_DEFAULT. NOOK_FORM_PAPER is the published method in its corrected form: a running
-   * average with the step 1 / n after each sample, without match_sh. Leave `method` and `match_sh` at their
-   * defaults. */
+  /* Default NOOK_FORM_DEFAULT. NOOK_FORM_PAPER is the published method, corrected: a running average with the
+   * step 1 / n after each sample, without match_sh. Leave `method` and `match_sh` at their defaults then. */
   nook_form form;
   /* Only for lobes. 1 (default): the fit matches the light's spherical harmonics of bands 0 to 2, which make
-   * up 99 % of its irradiance. The total light is then exact, and irradiance has about a third of the error.
-   * With fewer than 9 lobes, non-negative methods or a hemisphere, the match is approximate. 0: plain least
-   * squares, for lobes so sharp that there are gaps between them. */
+   * up 99 % of its irradiance. The total light is then exact, and the error of irradiance falls to about a
+   * third. With fewer than 9 lobes, non-negative methods or a hemisphere, the match is approximate. 0: plain
+   * least squares, for lobes so sharp that there are gaps between them. */
   int32_t match_sh;
   /* Default NOOK_PROBE_BASIS_LOBES. */
   nook_probe_basis basis;
@@ -77,19 +76,19 @@ typedef struct nook_probe_fit_desc {
   float up[3];
   /* The number of lobes without the ambient term; 1 to 64, or 63 with the ambient term. Default 12. */
   uint32_t lobe_count;
-  /* The sharpness of all lobes if sharpnesses is NULL, 0 to 10000. 0 (default): chosen so that neighbouring
-   * lobes overlap equally for any lobe_count; 6 for 12 lobes on the sphere. */
+  /* The sharpness of all lobes if sharpnesses is NULL, 0 to 10000. With 0 (default), Nook chooses a sharpness
+   * at which neighbouring lobes overlap equally for any lobe_count, such as 6 for 12 lobes on the sphere. */
   float sharpness;
   /* lobe_count unit directions (to 1e-3), which the call copies. NULL (default): a Vogel spiral. */
   const float* axes;
   /* lobe_count values above 0, up to 10000, which the call copies. NULL (default): `sharpness` for all. */
   const float* sharpnesses;
-  /* 1: a constant term follows the lobes. Default 0. */
+  /* 1: the basis has an ambient (constant) term after the lobes. Default 0. */
   int32_t ambient;
-  /* For harmonics: the highest band, 1 to 4; default 2. */
+  /* For spherical harmonics: the highest band, 1 to 4; default 2. */
   uint32_t order;
-  /* Samples, >= 0. If 0 (default), weights are used as given. Otherwise, the weight of sample k, counted from
-   * 1, is multiplied by 1 - exp(-k / growing_samples). Use it if the first samples are noisy. */
+  /* A number of samples, >= 0. If 0 (default), weights are used as given. Otherwise, the weight of sample k,
+   * counted from 1, is multiplied by 1 - exp(-k / growing_samples). Set it if the first samples are noisy. */
   float growing_samples;
   uint32_t reserved;
 } nook_probe_fit_desc;
@@ -108,47 +107,46 @@ NOOK_API void nook_probe_fit_destroy(nook_probe_fit* fit);
 
 /* Adds samples of radiance. Pass `weights` NULL if directions are distributed uniformly; each then has the
  * weight 1. Otherwise, a direction drawn with probability density p over a domain of area a has the weight 1
- * / (a p), so that the mean of all weights is 1. With another mean, running averages converge more slowly.
+ * / (a p), so that the mean of all weights is 1. If the mean is not 1, running averages converge more slowly.
  * The fit skips and counts a sample whose direction is not of unit length to 1e-3 or lies outside the
  * hemisphere. It also skips negative weights, values that are not finite, and values above 1e18. Running
- * averages need directions in random order. The call does not allocate. One at a time. Errors:
- * INVALID_ARGUMENT. */
+ * averages need a random order. The call does not allocate. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float* directions,
                                                 const float* radiance, const float* weights, size_t count);
 
-/* Adds the samples of the fit `other`, such as one from another thread, to `fit`. Both must have equal
- * descriptors. With least squares, the result is the same as one fit of all samples, up to rounding. Running
- * averages are averaged, weighted by their samples' weights. `other` is not changed. No other thread may use
- * the fits. One at a time. Errors: INVALID_ARGUMENT. */
+/* Adds the samples of the fit `other`, such as one from another thread, to `fit`. The descriptors of both
+ * fits must be equal. With least squares, the result is the same as one fit of all samples, up to rounding.
+ * With running averages, it is the mean of both solutions, weighted by the sums of their samples' weights.
+ * `other` is not changed. No other thread may use the fits. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_merge(nook_probe_fit fit, nook_probe_fit other);
 
 /* Removes all samples. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_reset(nook_probe_fit fit);
 
-/* Creates a probe from the samples so far; without samples, it is black. You may add more samples and solve
- * again. For a grid, fit each probe and pass all fits to nook_probe_create. On failure *out is NULL.
+/* Creates a probe from the samples so far; without samples, the probe is black. You may add more samples and
+ * solve again. For a grid, fit each probe and pass all fits to nook_probe_create. On failure *out is NULL.
  * One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_fit_solve(nook_probe_fit fit, nook_probe* out);
 
 typedef struct nook_probe_fit_info {
   uint32_t struct_size;
-  /* The number of lobes with the ambient term, or of harmonics; 12 for ambient dice. */
+  /* The number of functions: lobes and the ambient term, or harmonics; 12 for ambient dice. */
   uint32_t function_count;
-  /* Samples that the fit used, and samples that it skipped. `skipped` is the sum of the next three counts. */
+  /* The numbers of samples that the fit used and skipped. `skipped` is the sum of the next three counts. */
   uint64_t samples, skipped;
-  /* Samples skipped because the direction is not finite, not of unit length or below the hemisphere; because
-   * radiance is not finite; and because the weight is not finite or negative. */
+  /* The fit skipped this many samples because the direction is not finite, not of unit length or outside the
+   * hemisphere. It skipped others because radiance is not finite, or the weight is negative or not finite. */
   uint64_t skipped_direction, skipped_radiance, skipped_weight;
   /* The sum of the weights of the used samples. */
   double weight;
-  /* The weighted mean of the used samples. The mean of a good fit is close to it. */
+  /* The weighted mean of the used samples. The mean radiance of a good fit is close to this value. */
   double mean_radiance[3];
 } nook_probe_fit_info;
 
 /* Describes a fit and counts its samples. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_info* info);
 
-/* ---- Probes: one or a grid with common functions; immutable, usable on several threads ---- */
+/* ---- Probes: one, or a grid with the same functions; immutable, usable on several threads ---- */
 
 /* For a grid, set `counts`, `origin_ws` and `spacing_ws`. Set one of three sources of light: `fits`, `lobes`,
  * or `functions` with `coefficients`. In arrays with an entry for each probe, x varies fastest, then y, then
@@ -158,18 +156,18 @@ typedef struct nook_probe_desc {
   const void* next;
   /* The numbers of probes along x, y and z; their product is at most 1,048,576. Default 1, 1, 1. */
   uint32_t counts[3];
-  /* Metres, the position of the first probe; default 0. */
+  /* The position of the first probe in metres; default 0. */
   float origin_ws[3];
-  /* Metres, > 0, between neighbours along x, y and z; default 1. */
+  /* The distances between neighbours along x, y and z in metres, > 0; default 1. */
   float spacing_ws[3];
   /* The number of fits: one for each probe. Default 0. */
   uint32_t fit_count;
-  /* Fits with the same basis and domain, or NULL (default). Each is solved as by nook_probe_fit_solve. */
+  /* Fits with the same basis and domain, or NULL (default). The call solves each fit. */
   const nook_probe_fit* fits;
   /* lobe_count lobes for each probe, or NULL (default). All probes must have the same axes and sharpnesses.
    * Only the last lobe may have the sharpness 0; it is the ambient term. */
   const nook_lobe* lobes;
-  /* Lobes of each probe, 1 to 64. Default 0. */
+  /* The number of lobes of each probe, 1 to 64. Default 0. */
   uint32_t lobe_count;
   uint32_t reserved;
   /* A fit that defines the coefficients' basis and domain, or NULL (default). Its samples are not used. */
@@ -187,7 +185,7 @@ static inline nook_result nook_probe_desc_init(nook_probe_desc* desc) {
 NOOK_API nook_result nook_probe_create(nook_context context, const nook_probe_desc* desc, nook_probe* out);
 
 /* Loads a probe or a grid from the bytes of a .nook file, which you may free afterwards. The library
- * validates everything, so that hostile bytes are safe. On failure *out is NULL.
+ * validates all bytes, so you can load files that you do not trust. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_load(nook_context context, const void* bytes, size_t size, nook_probe* out);
 
@@ -198,8 +196,8 @@ NOOK_API void nook_probe_destroy(nook_probe* probe);
 enum {
   /* 12 bytes, exact. */
   NOOK_PROBE_PACKING_FLOAT = 0,
-  /* 6 bytes. The relative error of a channel is at most 2^-11 for values from 6.1e-5 to 65504; below, the
-   * absolute error is at most 3e-8. Larger values fail with INVALID_ARGUMENT. */
+  /* 6 bytes. The relative error of a channel is at most 2^-11 for values from 6.1e-5 to 65504; for smaller
+   * values, the absolute error is at most 3e-8. Larger values fail with INVALID_ARGUMENT. */
   NOOK_PROBE_PACKING_HALF = 1,
   /* 4 bytes. The error is at most 2^-9 of the largest of the three channels, if that is 3.1e-5 to 65408.
    * Negative channels and larger values fail with INVALID_ARGUMENT. */
@@ -207,7 +205,7 @@ enum {
 };
 typedef int32_t nook_probe_packing;
 
-/* Writes the .nook file of a probe to bytes. Set *size to the buffer's size; the call sets it to the file's
+/* Writes the .nook file of a probe to `bytes`. Set *size to the buffer's size; the call sets it to the file's
  * size. With `bytes` NULL, it only sets *size. The call allocates from the C++ heap. Any thread. Errors:
  * INVALID_ARGUMENT (also if the buffer is too small; *size is then the required size), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_probe_save(nook_probe probe, nook_probe_packing packing, void* bytes, size_t* size);
@@ -223,39 +221,39 @@ typedef struct nook_probe_info {
   int32_t ambient;
   /* The highest band of harmonics; 0 for other bases. */
   uint32_t order;
-  /* Probes, in all and along x, y and z. */
+  /* The grid has this many probes in all, and along x, y and z. */
   uint32_t probe_count, counts[3];
   /* Metres, the position of the first probe. */
   float origin_ws[3];
-  /* Metres between neighbours along x, y and z. */
+  /* The distances between neighbours along x, y and z in metres. */
   float spacing_ws[3];
-  /* The number of cells between probes that contain walls; 0: the grid has no walls. */
+  /* The number of cells of the grid that contain walls; 0: the grid has no walls. */
   uint32_t wall_cells;
 } nook_probe_info;
 
 /* Describes a probe. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_describe(nook_probe probe, nook_probe_info* info);
 
-/* Writes the coefficients of one probe of the grid, function_count x RGB. Any thread. Errors:
- * INVALID_ARGUMENT. */
+/* Writes the coefficients of one probe: function_count x RGB. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_read_coefficients(nook_probe probe, uint32_t index, float* coefficients,
                                                   uint32_t function_count);
 
-/* Writes the lobes at a point (world space, metres). A grid is interpolated trilinearly; outside, you get the
- * lobes at its nearest point. With `position_ws` NULL, you get the first probe's lobes. The call does not
- * allocate. Any thread. Errors: INVALID_ARGUMENT (also if the basis is not NOOK_PROBE_BASIS_LOBES). */
+/* Writes the lobes at a point (world space, metres). A grid is interpolated trilinearly; a point outside gets
+ * the lobes at the grid's nearest point. If `position_ws` is NULL, you get the first probe's lobes. The call
+ * does not allocate. Any thread. Errors: INVALID_ARGUMENT (also if the basis is not
+ * NOOK_PROBE_BASIS_LOBES). */
 NOOK_API nook_result nook_probe_read_lobes(nook_probe probe, const float* position_ws, nook_lobe* lobes,
                                            uint32_t function_count);
 
 /* Evaluates the radiance from `count` unit directions. `positions_ws` has a position for each direction
  * (world space, metres), at which the grid is interpolated; outside the grid you get the light at its nearest
- * point. With NULL, all use the first probe. Walls are ignored. Below a hemisphere, the result is not
- * meaningful. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
+ * point. With NULL, all directions use the first probe. Walls are ignored. Outside a probe's hemisphere, the
+ * result is not meaningful. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_radiance(nook_probe probe, const float* positions_ws, const float* directions,
                                          float* radiance, size_t count);
 
-/* Evaluates the irradiance on count surfaces with unit normals, at positions as in nook_probe_radiance. In a
- * grid that was baked with walls, a surface uses only the probes on its side of a wall. For lobes, the
+/* Evaluates the irradiance on `count` surfaces with unit normals, at positions as in nook_probe_radiance. In
+ * a grid that was baked with walls, a surface uses only the probes on its side of a wall. For lobes, the
  * clamped cosine is expanded in spherical harmonics up to band 4; the error is at most 0.2 % up to sharpness
  * 6, 1 % at 16, and 1.6 % above. Harmonics are exact. The result is not clamped at 0. The call does not
  * allocate. Any thread. Errors: INVALID_ARGUMENT. */

@@ -18,7 +18,7 @@ inline nook_probe_fit_desc probe_fit_desc() {
   return desc;
 }
 
-// You must set fits, or lobes, or functions and coefficients.
+// You must set either `fits`, or `lobes`, or both `functions` and `coefficients`.
 inline nook_probe_desc probe_desc() {
   nook_probe_desc desc;
   check(nook_probe_desc_init(&desc));
@@ -52,17 +52,17 @@ class Probe : public Unique<nook_probe, nook_probe_destroy> {
     check(nook_probe_read_coefficients(get(), index, rgb.data(), static_cast<std::uint32_t>(rgb.size() / 3)));
     return rgb;
   }
-  // position_ws may be NULL for the first probe.
+  // If `position_ws` is NULL, returns the lobes of the first probe.
   std::vector<nook_lobe> lobes(const float* position_ws = nullptr) const {
     std::vector<nook_lobe> all(info().function_count);
     check(nook_probe_read_lobes(get(), position_ws, all.data(), static_cast<std::uint32_t>(all.size())));
     return all;
   }
-  // positions_ws has a position for each direction, or is NULL for the first probe.
+  // `positions_ws` has a position for each direction. If it is NULL, the first probe is used.
   void radiance(const float* positions_ws, const float* directions, float* rgb, std::size_t count) const {
     check(nook_probe_radiance(get(), positions_ws, directions, rgb, count));
   }
-  // positions_ws has a position for each normal, or is NULL for the first probe.
+  // `positions_ws` has a position for each normal. If it is NULL, the first probe is used.
   void irradiance(const float* positions_ws, const float* normals, float* rgb, std::size_t count) const {
     check(nook_probe_irradiance(get(), positions_ws, normals, rgb, count));
   }
@@ -85,7 +85,7 @@ class ProbeFit : public Unique<nook_probe_fit, nook_probe_fit_destroy> {
   explicit ProbeFit(const Context& context, const nook_probe_fit_desc& desc = probe_fit_desc())
       : Unique(create(context, desc)) {}
 
-  // weights may be NULL if all are 1.
+  // `weights` may be NULL if all weights are 1.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count) {
     check(nook_probe_fit_add_samples(get(), directions, radiance, weights, count));
   }

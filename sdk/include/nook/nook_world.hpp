@@ -15,7 +15,7 @@ inline nook_world_desc world_pass_desc() {
   return desc;
 }
 
-// You must set the casters.
+// You must set the casters: `scene`, `capsules` or both.
 inline nook_world_frame_desc world_frame_desc() {
   nook_world_frame_desc desc;
   check(nook_world_frame_desc_init(&desc));
