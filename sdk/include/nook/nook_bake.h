@@ -39,8 +39,7 @@ typedef struct nook_bake_progress {
   nook_bake_state state;
   /* The current stage in English, such as "ray tracing"; not NULL, valid while the library is loaded. */
   const char* stage;
-  /* Steps of this stage, completed and total. A step is a pose, view, vertex, texel or iteration of the
-   * fit. */
+  /* Steps of this stage, completed and total. A step is a pose, view, vertex, texel or fit iteration. */
   uint64_t done, total;
 } nook_bake_progress;
 
@@ -114,7 +113,7 @@ typedef struct nook_bake_source_desc {
   const nook_range* primitives;
   uint32_t primitive_count;
   /* Names of nodes or meshes to import (`meshes`) or to skip (`without`); * and ? are wildcards. By default,
-   * the import takes every visible one except LOD1, LOD2 and so on. */
+   * the import takes all visible meshes except LOD1, LOD2 and so on. */
   const char* const* meshes;
   const char* const* without;
   uint32_t mesh_count, without_count;

@@ -231,7 +231,7 @@ typedef struct nook_scene_info {
   uint32_t struct_size;
   /* The number of instances, and of the instances that the last update evaluated. */
   uint32_t instances, instances_updated;
-  /* The update evaluated this many receiver-caster pairs, and skipped this many casters, occluders and
+  /* The last update evaluated this many receiver-caster pairs, and skipped this many casters, occluders and
    * grounds. */
   uint32_t links, links_culled;
   /* The number of instances with a bone that Nook corrected because it was sheared or scaled unevenly. */
@@ -253,8 +253,8 @@ NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info
  * applied. Do not convert them yourself: in many files, a node above the skeleton scales by 0.01 or rotates
  * by 90 degrees. If AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
 
-/* Which matrices you pass. They transform to world space. If you set place_3x4, they transform to its source
- * space instead. */
+/* Which matrices you pass. They transform to world space, or, if you set place_3x4, to the space that
+ * place_3x4 transforms. */
 enum {
   /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them, one for each bone. Models
    * without bind data accept only this kind. */
@@ -326,8 +326,8 @@ static inline nook_result nook_pose_desc_init(nook_pose_desc* desc) {
 }
 
 /* Sets the pose of an instance. Call it once per frame for each instance that moves, before the update. A
- * matrix may scale the body uniformly, and may mirror it. A bone whose axes are all zero shrinks to nothing.
- * On failure, the instance keeps its old pose. The call does not allocate. One at a time. Errors:
+ * matrix may scale the body uniformly, and may mirror it. If all axes of a matrix are zero, its bone shrinks
+ * to a point. On failure, the instance keeps its old pose. The call does not allocate. One at a time. Errors:
  * INVALID_ARGUMENT (a count is wrong, or a matrix is not finite; if strict, also if a matrix shears, scales
  * unevenly or scales to zero; the message names the bone), INVALID_HANDLE, UNSUPPORTED (the model has no bind
  * data: bake it again from the glTF file, or pass NOOK_POSE_REST_TO_WORLD). */

@@ -47,8 +47,8 @@ typedef int32_t nook_gl_tier;
 enum {
   /* Each call queries the state and restores it. A query may stall a threaded driver. */
   NOOK_GL_STATE_PRESERVE = 0,
-  /* Nook reads no state, and sets what it changed to OpenGL's defaults. Use it on WebGL, where reads
-   * stall. */
+  /* Nook reads no state, and resets the state that it changed to OpenGL's defaults. Use this mode on WebGL,
+   * where reads stall. */
   NOOK_GL_STATE_DEFAULTS = 1,
   /* Nook reads no state, and leaves the state that it changed undefined, so you must set it again. Rasterizer
    * discard and primitive restart are left disabled. */
@@ -103,9 +103,9 @@ typedef struct nook_gl_info {
 NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 
 /* Creates the OpenGL objects that the scene's instances need, so that the next nook_gl_scene_update allocates
- * nothing. Optional: an update does the same when instances were added. Existing instances keep their AO and
- * their view. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (a model or the scene exceeds a limit of
- * this OpenGL), GL, OUT_OF_MEMORY. */
+ * nothing. The call is optional: an update also creates the objects of new instances. Existing instances keep
+ * their AO and their view. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (a model or the scene
+ * exceeds a limit of this OpenGL), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene);
 
 /* Evaluates the AO of all instances on the GPU. Call it in place of nook_scene_update; the values agree
@@ -206,7 +206,8 @@ NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
 
 /* ---- A frame of the host ----
  *
- * These structs describe the images and the camera of a frame, for nook_nnao_render and nook_world_render. */
+ * nook_gl_frame_desc describes the images and the camera of a frame, for nook_nnao_render and
+ * nook_world_render. */
 
 /* The contents of a depth texture. */
 enum {
@@ -369,9 +370,9 @@ NOOK_API nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_uplo
 
 /* Prepares a draw with `program`. Binds the textures to the texture units from `first_unit` on, without
  * sampler objects, and sets the program's sampler uniforms and constants. In every nook_gl_state_mode, the
- * program stays in use and the textures stay bound; state_mode applies only to the active unit. A sampler
- * that your shader does not use may be missing. If all are missing, the call fails and changes nothing; the
- * message names what the program was compiled for.
+ * program stays in use and the textures stay bound; state_mode applies only to the active texture unit. A
+ * sampler that your shader does not use may be missing. If all are missing, the call fails and changes
+ * nothing; the message names what the program was compiled for.
  * Context thread. Errors: INVALID_ARGUMENT (program is not a linked program, was compiled with the GLSL of
  * another kind of upload, or first_unit + texture_count exceeds GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), GL. */
 NOOK_API nook_result nook_gl_upload_bind(nook_gl_upload upload, uint32_t program, uint32_t first_unit);
@@ -446,7 +447,7 @@ NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe prob
  * Each additional fetch of `fetches` costs further_decode_fetches texel fetches (nook_material_info). The
  * `modes` of a neural material are values inside its network, so you cannot add or mix them. Silhouettes of
  * the meso-structure need two passes over the same triangles. In the first, draw pixels with alpha = 1 and
- * discard the others. In the second, blend pixels with 0 < alpha < 1 by alpha, with depth test but without
+ * discard the others. In the second, blend pixels with 0 < alpha < 1 by alpha, with the depth test but no
  * depth writes. */
 
 /* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials with the same

@@ -26,7 +26,7 @@ enum {
   NOOK_MATERIAL_VISIBILITY_NONE = 0,
   /* A mask: 1 where the view meets the meso-structure, 0 where it passes through. */
   NOOK_MATERIAL_VISIBILITY_MASK = 1,
-  /* The signed distance to the boundary of that mask, positive where the view meets the meso-structure. */
+  /* The signed distance to the boundary of the mask, positive where the view meets the meso-structure. */
   NOOK_MATERIAL_VISIBILITY_DISTANCE = 2
 };
 typedef int32_t nook_material_visibility;
@@ -53,8 +53,8 @@ typedef struct nook_material_desc {
    * For up to 128 lights, the light map has 32 x 32 cells. The VOTF is in blocks too. In a neural material,
    * only the VOTF is in blocks. */
   nook_material_blocks blocks;
-  /* How many of the first light modes are not stored in blocks, because blocks would cause the largest errors
-   * there. Rounded up to a multiple of 4; 0 to 3,072, default 4. */
+  /* The first whole_light_modes light modes are not stored in blocks, because blocks cause the largest errors
+   * in these modes. Rounded up to a multiple of 4; 0 to 3,072, default 4. */
   int32_t whole_light_modes;
 } nook_material_desc;
 static inline nook_result nook_material_desc_init(nook_material_desc* desc) {
@@ -129,7 +129,7 @@ typedef struct nook_material_value {
   float radiance[3];
   /* The VOTF: a filtered mask in [0, 1], or a distance in [-1, 1]; 1 without a VOTF. */
   float occlusion;
-  /* Equation (26): 1 from the threshold on, weight * occlusion between 0 and the threshold, otherwise 0. */
+  /* Equation (26): 1 if occlusion >= threshold; weight * occlusion from 0 to the threshold; 0 below 0. */
   float visibility;
 } nook_material_value;
 

@@ -175,8 +175,8 @@ typedef struct nook_nnao_info {
    *     float nook_nnao_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer,
    *                                        float roughness)
    * Look up the irradiance of a probe along the bent normal and multiply it by AO. Multiply glossy
-   * reflections by the specular occlusion. Every pass has the same text, valid while the library is
-   * loaded. */
+   * reflections by the specular occlusion. The text is the same for every pass and stays valid while the
+   * library is loaded. */
   const char* glsl;
 } nook_nnao_info;
 
