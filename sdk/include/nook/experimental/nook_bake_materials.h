@@ -23,11 +23,11 @@ typedef struct nook_bake_synthesis_desc {
    * material must have at least 16 texels along each side. nook_bake_start reads it before it returns. */
   const void* material;
   size_t material_size;
-  /* The part of the material that the plane may show, in texels: x, y, width, height. All 0 (default): the
-   * whole material. */
+  /* The part of the material that the plane may show: x, y, width and height in texels. If all four are 0
+   * (default), the plane may show the whole material. */
   uint32_t crop[4];
   /* 1 (default): the material tiles without a seam, so the plane may continue across the material's border.
-   * 0: it does not tile. A crop never tiles. */
+   * 0: the material does not tile. A crop of a material is always treated as not tiling. */
   uint32_t is_tiling;
   /* Texels along a side of the plane, a multiple of 64 up to 4096; default 512. The plane repeats after this
    * length. The file has 4 bytes for each texel. */
@@ -36,12 +36,12 @@ typedef struct nook_bake_synthesis_desc {
   float jitter;
   /* The number of correction passes at each level, 1 to 16; default 8. */
   uint32_t passes;
-  /* Default 1. The same seed gives the same bytes on any number of threads. */
+  /* The random seed, default 1. The same seed gives the same bytes on any number of threads. */
   uint64_t seed;
-  /* Default 0: all cores; up to 1024. */
+  /* The number of threads, up to 1024. The default 0 uses all cores. */
   uint32_t threads;
   uint32_t reserved;
-  /* NULL (default): you poll instead. */
+  /* NULL (default): the job calls no function, and you poll it instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
 } nook_bake_synthesis_desc;
@@ -50,7 +50,7 @@ static inline nook_result nook_bake_synthesis_desc_init(nook_bake_synthesis_desc
 }
 
 /* Starts to bake a synthesis, as nook_bake_start does. nook_bake_job_file gives the bytes for
- * nook_synthesis_load. The report holds the sizes, the time and the seams.
+ * nook_synthesis_load. The report of the job contains the sizes, the bake time and the seams.
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`material`),
  * FILE_VERSION, OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_synthesis(const nook_bake_synthesis_desc* desc,
@@ -60,8 +60,8 @@ static inline nook_result nook_bake_start_synthesis(const nook_bake_synthesis_de
 
 /* ---- Radiance transfer: from a static textured shape in memory ---- */
 
-/* A shape, in metres, in the space of its vertices. Lights are later rotated into this space. nook_bake_start
- * copies all arrays. docs/transfer.md describes what is baked. */
+/* A shape, in metres, in the space of its vertices. At run time, you rotate the light into this space.
+ * nook_bake_start copies all arrays. docs/transfer.md describes what is baked. */
 typedef struct nook_bake_transfer_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -88,20 +88,21 @@ typedef struct nook_bake_transfer_desc {
   /* Ray directions are the cells of a cube map. This is the number of cells along a side of a face, 8 to 256;
    * default 32, which gives 6,144 rays per vertex. */
   uint32_t ray_side;
-  /* Default 0: all cores; up to 1024. The file does not depend on it. */
+  /* The number of threads, up to 1024. The default 0 uses all cores. The file does not depend on the number
+   * of threads. */
   uint32_t threads;
   uint32_t reserved;
-  /* NULL (default): you poll instead. */
+  /* NULL (default): the job calls no function, and you poll it instead. */
   nook_bake_progress_fn progress;
   void* progress_user;
   /* The number of light bounces between parts of the shape, 0 (default) to 2. Each bounce adds 18 bytes per
    * vertex. */
   uint32_t bounces;
-  /* How many tiles of the material fit in one unit of texture coordinates, 0.01 to 1000, for `votf`; default
-     1. */
+  /* The number of tiles of the material in one unit of texture coordinates, 0.01 to 1000; default 1. Only
+   * used with `votf`. */
   float tiles;
-  /* The bytes of the .nook file of the shape's material, which must have a VOTF: light falls through the
-   * holes of the VOTF. NULL (default): surfaces have no holes. */
+  /* The bytes of a .nook file with the shape's material. The material must have a VOTF. Light falls through
+   * the holes of the VOTF. NULL (default): surfaces have no holes. */
   const void* votf;
   size_t votf_size;
   /* Required for NOOK_FORM_PAPER, otherwise NULL (default): the bytes of a material's .nook file. The job
@@ -110,8 +111,8 @@ typedef struct nook_bake_transfer_desc {
   size_t material_size;
   /* For NOOK_FORM_PAPER: the number of vertex clusters, up to 256; 0 (default): one per 360 vertices. */
   uint32_t clusters;
-  /* Default NOOK_FORM_DEFAULT: the transfer does not depend on a material, so you can use any with the shape.
-   * NOOK_FORM_PAPER follows Tsai and Shih 2012, for the light modes of `material`. */
+  /* Default NOOK_FORM_DEFAULT: the transfer does not depend on a material, so you can use any material with
+   * the shape. NOOK_FORM_PAPER follows Tsai and Shih 2012, for the light modes of `material`. */
   nook_form form;
 } nook_bake_transfer_desc;
 static inline nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* desc) {
@@ -119,7 +120,7 @@ static inline nook_result nook_bake_transfer_desc_init(nook_bake_transfer_desc* 
 }
 
 /* Starts to bake radiance transfer, as nook_bake_start does. nook_bake_job_file gives the bytes for
- * nook_transfer_load. The report holds the settings, sizes, the time and warnings.
+ * nook_transfer_load. The report of the job contains the settings, the sizes, the bake time and warnings.
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`votf` or `material`),
  * OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_transfer(const nook_bake_transfer_desc* desc, nook_bake_job* out) {

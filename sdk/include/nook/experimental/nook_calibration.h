@@ -27,12 +27,13 @@ extern "C" {
 NOOK_API nook_result nook_scene_record_pose(nook_scene scene, nook_instance_id instance, void* bytes,
                                             size_t* size);
 
-/* Gives the recipe of a model, a JSON object, valid while the model lives. Its entry "judged" has the error
- * on poses that the model was not fitted to. over_static and over_static_by_area are relative to the error of
- * the rest pose's AO, and over_oracle to the error of the best static bake. worst_clip_over_static is the
- * over_static of the worst clip. "on" is the kind of poses, and "poses" is their number. Your pipeline can
- * reject a model by these values. Models from earlier bakes do not have this entry, and their text may be
- * empty. Any thread. Errors: INVALID_ARGUMENT. */
+/* Gives the recipe of a model as the text of a JSON object. The text is valid while the model lives. The
+ * entry "judged" contains the error of the model on poses that were not used for the fit. over_static and
+ * over_static_by_area are this error relative to the error of the rest pose's AO. over_oracle is this error
+ * relative to the error of the best static bake. worst_clip_over_static is the over_static of the worst clip.
+ * "on" names the kind of these poses, and "poses" is the number of poses. Your pipeline can reject a model by
+ * these values. A model from an earlier version of the baker may lack "judged", and its recipe may be an
+ * empty text. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_recipe(nook_model model, const char** json);
 
 #ifdef __cplusplus

@@ -25,26 +25,26 @@ typedef int32_t nook_gl_capture_light;
 typedef struct nook_gl_capture_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* An upload of the form NOOK_GL_PROBE_LOBES whose lobes the capture replaces, or NULL. Its domain must be
-   * the sphere. The capture keeps the upload alive. */
+  /* An upload of the form NOOK_GL_PROBE_LOBES whose lobes the capture replaces, or NULL. The domain of the
+   * upload must be the sphere. The capture keeps the upload alive. */
   nook_gl_upload probe;
   /* An upload of the form NOOK_GL_PROBE_SH or NOOK_GL_PROBE_ZH3 whose coefficients the capture replaces, or
-   * NULL. Walls are not changed. Set at least one of `probe` and `grid`. If you set both, they must have the
-   * same counts, origin and spacing. */
+   * NULL. The capture does not change the walls of the grid. Set at least one of `probe` and `grid`. If you
+   * set both, they must have the same counts, origin and spacing. */
   nook_gl_upload grid;
-  /* The side of a face of every cube map, at mipmap level `level`; 4 to 512 texels, default 64. */
+  /* The side length of a cube-map face at mipmap level `level`, in texels; 4 to 512, default 64. */
   uint32_t face_size_px;
   /* The mipmap level of the cube map that is read, at most 15, default 0. If you render large faces, generate
    * mipmaps and use the level with 64 texels or less. */
   uint32_t level;
-  /* A probe is the running average of its maps, in which map n has the weight 1 / min(n, history). 1 to 65536
-   * maps, default 1. With 1, only the latest map counts. A larger value smooths noisy maps and changes of
-   * light over time. */
+  /* The length of a probe's running average over cube maps, 1 to 65536 maps. When you add map n, it gets the
+   * weight 1 / min(n, history). With the default 1, the probe only uses the latest map. A larger value
+   * smooths noisy maps, and also smooths changes of light over time. */
   uint32_t history;
   /* Default NOOK_GL_CAPTURE_ALL. */
   nook_gl_capture_light light;
   /* 1 (default): the lobes match the light's spherical harmonics of bands 0 to 2, as in nook_probe_fit_desc.
-   * 0: plain fit by moments. */
+   * 0: the lobes are fitted by moments without this constraint. */
   int32_t match_sh;
   uint32_t reserved;
 } nook_gl_capture_desc;
@@ -53,24 +53,25 @@ static inline nook_result nook_gl_capture_desc_init(nook_gl_capture_desc* desc) 
 }
 
 /* Creates the programs and buffers of a capture. Each probe takes 384 bytes for every 12 lobes, and 384 bytes
- * for harmonics. In addition, the capture takes face_size_px * 2304 bytes. The textures keep their light
- * until the first map of each probe. On failure *out is NULL and no OpenGL object is left. Context thread.
- * Errors: INVALID_ARGUMENT, UNSUPPORTED (the sums of all probes exceed the texture buffer of this OpenGL;
- * every OpenGL has room for 2,500 probes of 12 lobes), GL, OUT_OF_MEMORY. */
+ * for harmonics. In addition, the capture takes face_size_px * 2304 bytes. The textures keep the old light of
+ * a probe until you add the first map for this probe. On failure *out is NULL and no OpenGL object is left.
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the sums of all probes exceed the texture buffer of
+ * this OpenGL; every OpenGL has room for 2,500 probes of 12 lobes), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_capture_create(nook_gl gl, const nook_gl_capture_desc* desc,
                                             nook_gl_capture* out);
 
 /* Fits a probe to a cube map of radiance, and writes the probe to the textures. Every texel is a sample,
  * weighted by its solid angle. Lobes are fitted as with NOOK_PROBE_FIT_STUDY_MOMENTS (nook_sg.h), and
- * harmonics are projected from the map, both in 32-bit floats. Nothing is read back, and draws that you
- * issued before still see the old light. `index` is the probe's index; x varies fastest, then y, then z.
- * `cube_map` is the name of a GL_TEXTURE_CUBE_MAP in a float or normalised format. Render it from the probe's
- * position, with OpenGL's cube map axes along the world axes. The call does not change texture parameters.
- * Texels that are not finite or are above 1e18 are ignored; if all texels are ignored, the probe is not
- * changed. With `restart` 1, the average starts again with this map; use it after a cut or when a light is
- * switched. With 0, the map is averaged with the earlier maps. Context thread. Errors: INVALID_ARGUMENT (also
- * if the texture is not a cube map; if its size, level or format is wrong, which OpenGL ES can tell only from
- * 3.1 on; or if you updated the textures with another grid or other lobes), GL. */
+ * harmonics are projected from the map, both in 32-bit floats. The call reads nothing back to the CPU. Draws
+ * that you issued before the call still use the old light. `index` is the probe's index; x varies fastest,
+ * then y, then z. `cube_map` is the name of a GL_TEXTURE_CUBE_MAP in a float or normalised format. Render it
+ * from the probe's position, with OpenGL's cube map axes along the world axes. The call does not change
+ * texture parameters. Texels that are not finite or are above 1e18 are ignored; if all texels are ignored,
+ * the probe is not changed. With `restart` 1, the average starts again with this map; use it after a cut or
+ * when a light is switched. With `restart` 0, the map is averaged with the earlier maps.
+ * Context thread. Errors: INVALID_ARGUMENT (also if the texture is not a cube map; if its size, level or
+ * format is wrong, which Nook cannot check on OpenGL ES 3.0; or if you updated the textures with another
+ * grid or other lobes), GL. */
 NOOK_API nook_result nook_gl_capture_add(nook_gl_capture capture, uint32_t index, uint32_t cube_map,
                                          int32_t restart);
 

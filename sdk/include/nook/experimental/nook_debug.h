@@ -1,12 +1,13 @@
-/* Shapes for debug drawing, the terms that updates evaluate, the memory of a model on the GPU, and debug
- * views and choices of the screen pass and the world pass. The shapes show what a scene evaluates: the proxy
- * spheres and key points of an instance in its pose, its links, and its level of detail. Draw them over your
- * own image to see why the AO of a character is wrong. For example, a sphere may stick out of the body, a
- * bone may not follow, or a neighbour may not be linked.
+/* Aids for debugging: shapes to draw, a choice of the casters that updates evaluate, the memory of a model on
+ * the GPU, and debug views and settings of the screen pass and the world pass. The shapes show what a scene
+ * evaluates: the proxy spheres and key points of an instance in its pose, its links, and its level of detail.
+ * Draw them over your own image to see why the AO of a character is wrong. For example, a sphere may stick
+ * out of the body, a bone may not follow, or a neighbour may not be linked.
  *
- * The describe and read calls do not allocate and change nothing. nook_scene_set_terms changes what the next
- * updates evaluate, and nook_gl_model_memory gives the memory of a model on the GPU. Spheres and points
- * follow the current pose; links and levels come from the last update, on the CPU or on OpenGL. */
+ * The functions that describe or read an instance do not allocate memory and do not change the scene.
+ * nook_scene_set_terms changes what the next updates evaluate, and nook_gl_model_memory gives the memory of a
+ * model on the GPU. Spheres and points follow the current pose; links and levels come from the last update,
+ * on the CPU or on OpenGL. */
 #ifndef NOOK_DEBUG_H
 #define NOOK_DEBUG_H
 
@@ -20,17 +21,17 @@ typedef struct nook_scene_instance_info {
   uint32_t struct_size;
   /* The level of detail of the last update; 0 is full detail. */
   uint32_t level;
-  /* AO, root mean square: the error of this level relative to full detail, as measured by the bake; 0 at full
+  /* The RMS difference in AO between this level and full detail, as the bake measured it; 0 at full
    * detail. */
   float level_error;
   /* The numbers of spheres and key points that are evaluated at this level. */
   uint32_t sphere_count;
   uint32_t key_point_count;
-  /* The number of linked casters that darken the instance; and the number of linked casters, occluders and
-   * grounds that the last update skipped because of cutoff_error. */
+  /* link_count is the number of linked casters that darken the instance. culled_count is the number of linked
+   * casters, occluders and grounds that the last update skipped because of cutoff_error. */
   uint32_t link_count;
   uint32_t culled_count;
-  /* 1 if the last update evaluated the instance, 0 if a later one will (lod_max_interval). */
+  /* 1: the last update evaluated the instance. 0: a later update will evaluate it (see lod_max_interval). */
   uint32_t updated;
   /* A sphere that contains all spheres and key points of the pose; world space, metres. */
   float bound_centre_ws[3];
@@ -60,17 +61,18 @@ NOOK_API nook_result nook_scene_read_spheres(nook_scene scene, nook_instance_id 
 
 /* A key point in the pose of an instance. World space, metres; normals have unit length. */
 typedef struct nook_scene_key_point {
-  /* Where the self-shadow is evaluated. The fit may leave it beside the surface. */
+  /* The point at which self-shadow is evaluated. The bake fits its position, so it may lie off the
+   * surface. */
   float position_ws[3];
-  /* The shadow of the instance's own spheres in the last nook_scene_update, >= 0, before the weights of the
-   * vertices. It is -1 before the first nook_scene_update; OpenGL updates do not set it, because their
-   * shadows stay on the GPU. */
+  /* The shadow of the instance's own spheres in the last nook_scene_update, >= 0, before it is multiplied by
+   * the weights of the vertices. It is -1 before the first nook_scene_update; OpenGL updates do not set it,
+   * because their shadows stay on the GPU. */
   float shadow;
   float normal_ws[3];
   /* The occlusion by links, ground and occluders in the last nook_scene_update, in [0, 1], or -1 like
-   * `shadow`. It is 0 with NOOK_FORM_PAPER, where `shadow` includes them. */
+   * `shadow`. With NOOK_FORM_PAPER it is 0, because `shadow` then includes links, ground and occluders. */
   float added;
-  /* Where links, ground and occluders are evaluated: a point on the surface. */
+  /* The point on the surface at which links, ground and occluders are evaluated. */
   float surface_position_ws[3];
   /* The point's index in the model. */
   uint32_t index;
@@ -83,11 +85,11 @@ typedef struct nook_scene_key_point {
 NOOK_API nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_id instance,
                                                 nook_scene_key_point* out, uint32_t* count);
 
-/* Writes the instances that darken an instance by links, from nook_scene_link or as nearest neighbours. They
- * are the casters that its last update did not skip. After you remove any instance, there are none until the
- * next update. Set *count to the capacity of `out`; the call sets it to the number of casters. With `out`
- * NULL, the call only sets *count. Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT
- * (`out` is too small), INVALID_HANDLE. */
+/* Writes the instances that darken an instance by links, from nook_scene_link or as nearest neighbours.
+ * Casters that the last update skipped are left out. After you remove any instance from the scene, the call
+ * finds no casters until the next update. Set *count to the capacity of `out`; the call sets it to the number
+ * of casters. With `out` NULL, the call only sets *count. Any thread, while no call changes the scene.
+ * Errors: INVALID_ARGUMENT (`out` is too small), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_read_links(nook_scene scene, nook_instance_id instance, nook_instance_id* out,
                                            uint32_t* count);
 
@@ -120,8 +122,9 @@ typedef struct nook_gl_memory {
   uint64_t lit_instance_bytes;
 } nook_gl_memory;
 
-/* Computes the OpenGL memory of a model before you use it. Growing buffers can take up to 50 % more. The call
- * makes no OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
+/* Computes the OpenGL memory of a model before you use it. The memory in use can be up to 50 % more, because
+ * buffers are enlarged in large steps. The call makes no OpenGL call. One at a time. Errors:
+ * INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_model model, nook_gl_memory* memory);
 
 /* ---- Debug descriptors: point `next` of a descriptor of the screen pass or the world pass to one ---- */
@@ -129,12 +132,14 @@ NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_model model, nook_gl_
 /* How the network is evaluated; the other stages are always draws. Both paths give the same AO, bit for bit
  * on Mesa's llvmpipe. */
 enum {
-  /* Compute if OpenGL supports it, otherwise fragments; always fragments on OpenGL ES. */
+  /* Uses a compute shader if OpenGL supports it, otherwise a fragment shader. On OpenGL ES, always uses a
+   * fragment shader. */
   NOOK_NNAO_PATH_AUTOMATIC = 0,
-  /* A draw, on OpenGL 3.3, OpenGL ES 3.0 and WebGL 2. */
+  /* The network runs in a fragment shader. This works on OpenGL 3.3, OpenGL ES 3.0 and WebGL 2. */
   NOOK_NNAO_PATH_FRAGMENT = 1,
-  /* A dispatch. It needs OpenGL 4.3 or OpenGL ES 3.1, glBindImageTexture, and a max_tier in nook_gl_desc that
-   * allows it. OpenGL ES cannot write one-byte images, so AO takes four bytes there. */
+  /* The network runs in a compute shader. This needs OpenGL 4.3 or OpenGL ES 3.1, the function
+   * glBindImageTexture, and a nook_gl_desc.max_tier that allows compute shaders. On OpenGL ES, AO takes four
+   * bytes per pixel, because compute shaders cannot write one-byte images there. */
   NOOK_NNAO_PATH_COMPUTE = 2
 };
 typedef int32_t nook_nnao_path;
@@ -142,7 +147,8 @@ typedef int32_t nook_nnao_path;
 /* Which sample of a multisampled depth texture gives the pixel its depth and, with
    nook_nnao_desc.normal_samples, its normal. */
 enum {
-  /* The median of the depths, or the nearer one of two: a surface that covers most of the pixel. */
+  /* The sample with the median depth, or of two samples the nearer one. If one surface covers most of the
+   * pixel, this sample is on that surface. */
   NOOK_NNAO_SAMPLE_MEDIAN = 0,
   /* Sample 0. */
   NOOK_NNAO_SAMPLE_FIRST = 1,
@@ -151,7 +157,7 @@ enum {
 };
 typedef int32_t nook_nnao_sample;
 
-/* Choices of a screen pass for tests and measurements. Set nook_nnao_desc.next to it. */
+/* Settings of a screen pass for tests and measurements. Set nook_nnao_desc.next to it. */
 typedef struct nook_nnao_debug_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -196,18 +202,19 @@ static inline nook_result nook_nnao_frame_debug_desc_init(nook_nnao_frame_debug_
 enum {
   /* The result. */
   NOOK_WORLD_VIEW_AO = 0,
-  /* The number of casters that a pixel evaluates, divided by 255. At half resolution, casters of far bodies
-   * count by their share of pixels. */
+  /* The number of casters that a pixel evaluates, divided by 255. At half resolution, a caster of a far body
+   * is weighted by the fraction of the pixels that evaluate it. */
   NOOK_WORLD_VIEW_CASTERS = 1,
-  /* The number of these casters that are exact capsules (of a model or of nook_world_frame_desc), not the one
-   * capsule that replaces a limb or a body; divided by 255. */
+  /* The number of exact capsules that a pixel evaluates, divided by 255. Exact capsules are the capsules of a
+   * model or of nook_world_frame_desc. A merged capsule that replaces a whole limb or body is not counted. */
   NOOK_WORLD_VIEW_EXACT_CASTERS = 2,
-  /* The number of bodies whose reach a pixel tests, divided by 255. */
+  /* The number of bodies for which a pixel tests whether it is within the body's reach, divided by 255. */
   NOOK_WORLD_VIEW_TESTS = 3,
   /* The number of far bodies that the pixels of the half-resolution stage evaluate, interpolated to all
    * pixels; divided by 255. It is 0 if the pass has full resolution. */
   NOOK_WORLD_VIEW_FAR_CASTERS = 4,
-  /* The number of far bodies whose reach these pixels test, interpolated in the same way. */
+  /* The number of far bodies for which the pixels of the half-resolution stage test whether they are within
+   * the body's reach, interpolated to all pixels; divided by 255. */
   NOOK_WORLD_VIEW_FAR_TESTS = 5
 };
 typedef int32_t nook_world_view;

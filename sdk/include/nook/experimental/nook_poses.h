@@ -10,8 +10,8 @@ extern "C" {
 
 /* Evaluates `pose_count` poses of a single character, and writes the AO of each vertex in each pose to `ao`:
  * one pose after another, with file_vertex_count floats each. count must be pose_count * file_vertex_count.
- * This call gives the same bits as nook_scene_set_pose, nook_scene_update and nook_scene_read in a scene with
- * one instance.
+ * The result is bit-identical to a scene with one instance for which you call nook_scene_set_pose,
+ * nook_scene_update and nook_scene_read for each pose.
  *
  * `first` describes the first pose, as for nook_scene_set_pose; its kind, layout, place and bone map apply to
  * all poses. `pose_stride` is the number of bytes from the first transform of a pose to the first transform

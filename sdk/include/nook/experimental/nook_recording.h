@@ -13,8 +13,8 @@
  * Then write the file. To avoid incomplete files, write the bytes to a temporary file in the same folder and
  * rename it. nook::Recording::write of nook.hpp does this.
  *
- * A recording contains no colour image of the scene, but its depth and normals show shapes. Tell the people
- * who send recordings. */
+ * A recording contains no colour image of the scene, but its depth and normals show shapes. Tell this to the
+ * people who send you recordings. */
 #ifndef NOOK_RECORDING_H
 #define NOOK_RECORDING_H
 
@@ -27,8 +27,8 @@ extern "C" {
 typedef struct nook_nnao_recording_s* nook_nnao_recording;
 
 /* The contents of a recording. Images have width x height texels, row by row, starting with the row where
- * clip y is -1. They are the part of your images that the projection covers. The fields of the frame and of
- * the pass have the same meaning, ranges and constants as in nook_gl_frame_desc (nook_gl.h),
+ * clip y is -1. Each image is the part of your own image that the projection covers. The fields of the frame
+ * and of the pass have the same meaning, ranges and constants as in nook_gl_frame_desc (nook_gl.h),
  * nook_nnao_frame_desc and nook_nnao_desc (nook_nnao.h). */
 typedef struct nook_nnao_recording_desc {
   uint32_t struct_size, type;
@@ -45,8 +45,9 @@ typedef struct nook_nnao_recording_desc {
   const float* layer_texels;
   /* The AO of the frame in [0, 1], as the pass writes it to its own texture; NULL if you have none. */
   const float* ao;
-  /* The frame follows. `depth_kind` is 0 for hardware depth, 1 for linear depth. `clip` is a nook_clip_space:
-   * 0 for -1 to 1, 1 for 0 to 1. `projection` and `radius` are required. */
+  /* The fields from here to `view` describe the frame. `depth_kind` is 0 for hardware depth, 1 for linear
+   * depth. `clip` is a nook_clip_space: 0 for -1 to 1, 1 for 0 to 1. `projection` and `radius` are
+   * required. */
   int32_t depth_kind;
   int32_t clip;
   float sky_depth;
@@ -60,7 +61,8 @@ typedef struct nook_nnao_recording_desc {
   int32_t layer;
   /* What `ao` holds, a value of nook_nnao_view: 0 the result, 1 raw, 2 blurred. */
   int32_t view;
-  /* The settings of the pass follow. `path` is 0 for unknown, 1 for fragment, 2 for compute. */
+  /* The fields from here to `path` are the settings of the pass. `path` is 0 for unknown, 1 for fragment, 2
+   * for compute. */
   int32_t taps;
   int32_t half_resolution;
   int32_t blur;
@@ -71,7 +73,7 @@ typedef struct nook_nnao_recording_desc {
   /* The bytes of the .nook file of the network. NULL (default): the network that is embedded in this
    * library. */
   const void* network;
-  /* The size of network in bytes. */
+  /* The size of `network` in bytes. */
   size_t network_size;
   /* GL_VENDOR, GL_RENDERER and GL_VERSION, or the similar names of another graphics API; and a note of yours.
    * UTF-8 without control characters, at most 1000 bytes each. NULL means empty. */
@@ -79,9 +81,9 @@ typedef struct nook_nnao_recording_desc {
   const char* renderer;
   const char* driver_version;
   const char* note;
-  /* 0 (default): `radius` is in metres; 1: `radius` is a share of the height. */
+  /* 0 (default): `radius` is in metres; 1: `radius` is a fraction of the height. */
   int32_t radius_kind;
-  /* As in nook_nnao_frame_desc; default 0: none. */
+  /* As in nook_nnao_frame_desc. With the default 0, there is no minimum and no fade. */
   float min_radius_px, fade_begin, fade_end;
 } nook_nnao_recording_desc;
 static inline nook_result nook_nnao_recording_desc_init(nook_nnao_recording_desc* desc) {
@@ -106,14 +108,14 @@ NOOK_API void nook_nnao_recording_destroy(nook_nnao_recording* recording);
 
 /* Writes the .nook file of a recording to `bytes`. Set *size to the buffer's size; the call sets it to the
  * file's size. With `bytes` NULL, the call only sets *size. Storage is lossless. A value of an image takes 4
- * bytes, or 1 to 3 bytes if all values of the image fit exactly, such as 24-bit depth or 10-bit normals. The
- * call allocates from the C++ heap. Any thread. Errors: INVALID_ARGUMENT (also if the buffer is too small;
- * *size is then the required size), OUT_OF_MEMORY. */
+ * bytes. It takes only 1 to 3 bytes if such a format stores all values of the image exactly, for example
+ * 24-bit depth or 10-bit normals. The call allocates from the C++ heap. Any thread. Errors: INVALID_ARGUMENT
+ * (also if the buffer is too small; *size is then the required size), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_recording_save(nook_nnao_recording recording, void* bytes, size_t* size);
 
-/* Fills *desc with the contents of the recording. nook_nnao_recording_create makes an equal recording from
- * it. Set desc->struct_size to sizeof *desc before the call. The pointers are valid while the recording
- * lives. The texts are never NULL. `network` is NULL if the recording holds none.
+/* Fills *desc with the contents of the recording. If you pass *desc to nook_nnao_recording_create, you get an
+ * equal recording. Set desc->struct_size to sizeof *desc before the call. The pointers are valid while the
+ * recording lives. The texts are never NULL. `network` is NULL if the recording does not contain a network.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_nnao_recording_describe(nook_nnao_recording recording,
                                                   nook_nnao_recording_desc* desc);
@@ -123,13 +125,14 @@ struct nook_nnao_frame_desc;
 
 /* Records a frame: draws its AO into the pass's own texture, and reads the AO back together with the depth,
  * the normals and the G-buffer AO of the frame. The call ignores `blend`, `target` and `target_name`, and
- * does not write to your target. With NOOK_NNAO_VIEW_NORMALS, it records the result. Logarithmic depth is
- * converted to linear depth, and a radius relative to the scene to metres. `note` is a note for the person
- * who opens the file, or NULL. Call it before or after nook_nnao_render of the same frame. It WAITS FOR THE
- * GPU, allocates, and creates a program, so use it only for bug reports and measurements. Not for passes with
- * depth_samples or views. On failure *out is NULL. Context thread. Errors: INVALID_ARGUMENT (as
- * nook_nnao_render; also if the note is longer than 1000 bytes or has control characters), GL,
- * OUT_OF_MEMORY. */
+ * does not write to your target. If the debug view is NOOK_NNAO_VIEW_NORMALS, the call records the result
+ * (NOOK_NNAO_VIEW_AO) instead. Logarithmic depth is converted to linear depth, and a radius relative to the
+ * scene to metres. `note` is a note for the person who opens the file, or NULL. Call it before or after
+ * nook_nnao_render of the same frame. It WAITS FOR THE GPU, allocates, and creates a program, so use it only
+ * for bug reports and measurements. The call does not support passes with depth_samples or views. On failure
+ * *out is NULL.
+ * Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also if the note is longer than 1000 bytes
+ * or has control characters), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_record(nook_nnao pass, const struct nook_gl_frame_desc* frame,
                                       const struct nook_nnao_frame_desc* desc, const char* note,
                                       nook_nnao_recording* out);

@@ -15,7 +15,7 @@
 namespace nook {
 inline namespace wrapper {
 
-// You must set the size, depth, the projection and the radius.
+// Returns the defaults. You must set the size, the depth, the projection and the radius.
 inline nook_nnao_recording_desc nnao_recording_desc() {
   nook_nnao_recording_desc desc;
   check(nook_nnao_recording_desc_init(&desc));

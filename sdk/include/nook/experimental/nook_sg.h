@@ -21,14 +21,14 @@ NOOK_API nook_result nook_sg_radiance(const nook_lobe* lobes, uint32_t lobe_coun
 /* How the irradiance of a lobe is computed. */
 enum {
   /* S. Hill's fit for a lobe under the clamped cosine. Its error is at most 1.6 % of the irradiance of the
-   * same light from the direction of the normal. The fit is not defined below sharpness 3; BANDS is used
-   * there. */
+   * same light from the direction of the normal. The fit is not defined below sharpness 3, where
+   * NOOK_PROBE_IRRADIANCE_BANDS is used instead. */
   NOOK_PROBE_IRRADIANCE_FITTED = 0,
   /* The clamped cosine is approximated by a lobe. This is cheaper, but the irradiance is never 0 for surfaces
    * that face away from the light. */
   NOOK_PROBE_IRRADIANCE_INNER_PRODUCT = 1,
   /* The clamped cosine in spherical harmonics up to band 4, as nook_probe_irradiance uses it. Its error is at
-   * most 0.2 % up to sharpness 6 and 1 % at 16; above 16, FITTED is used. */
+   * most 0.2 % up to sharpness 6 and 1 % at 16; above 16, NOOK_PROBE_IRRADIANCE_FITTED is used instead. */
   NOOK_PROBE_IRRADIANCE_BANDS = 2
 };
 typedef int32_t nook_probe_irradiance_form;
@@ -43,8 +43,8 @@ NOOK_API nook_result nook_sg_irradiance(const nook_lobe* lobes, uint32_t lobe_co
 enum {
   /* One spherical Gaussian (after Wang et al. 2009). */
   NOOK_PROBE_SPECULAR_ISOTROPIC = 0,
-  /* Four Gaussians around normals that are visible to the eye (Heitz 2018). They stretch at grazing views,
-   * and if the two widths differ. */
+  /* Four Gaussians around normals that are visible to the eye (Heitz 2018). Together they form a stretched
+   * lobe at grazing views, and if the two widths differ. */
   NOOK_PROBE_SPECULAR_ANISOTROPIC = 1
 };
 typedef int32_t nook_probe_specular_form;
@@ -58,7 +58,7 @@ typedef struct nook_probe_surface {
   float tangent[3];
   /* The GGX width along the tangent, roughness squared, in [0.001, 1]. */
   float alpha_x;
-  /* The width across the tangent. The isotropic form takes the geometric mean of both. */
+  /* The GGX width across the tangent. The isotropic form uses the geometric mean of alpha_x and alpha_y. */
   float alpha_y;
   /* The reflectance at normal incidence (Schlick), in [0, 1]. */
   float reflectance;
@@ -78,15 +78,15 @@ NOOK_API nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_coun
                                       nook_probe_specular_form form, const nook_probe_surface* surfaces,
                                       float* rgb, size_t count);
 
-/* Writes the lobes for glossy reflection at a point. Pass them to nook_sg_specular. They have the same axes
- * and sharpnesses as the lobes of nook_probe_read_lobes, but different amplitudes, which are never negative.
- * The lobes of nook_probe_read_lobes are good for irradiance, because they keep the light's bands 0 to 2. But
- * their radiance is below 0 between strong lights, which shows as a black patch on glossy surfaces. A probe
- * has amplitudes for gloss if it comes from fits, or from a baked file. `nook bake probe` first removes suns
- * from a map; draw them as lights. `position_ws` and `function_count` are as in nook_probe_read_lobes. The
- * GLSL of an upload reads the same amplitudes. The call does not allocate. Any thread. Errors:
- * INVALID_ARGUMENT (also if the basis is not NOOK_PROBE_BASIS_LOBES), UNSUPPORTED (the probe has no
- * amplitudes for gloss). */
+/* Writes the lobes for glossy reflection at a point. Pass them to nook_sg_specular. The lobes have the same
+ * axes and sharpnesses as the lobes of nook_probe_read_lobes, but different amplitudes, which are never
+ * negative. The lobes of nook_probe_read_lobes are good for irradiance, because they keep bands 0 to 2 of the
+ * light. But between strong lights, the radiance of those lobes is negative, and glossy surfaces would show
+ * black patches. A probe has amplitudes for gloss if it comes from fits, or from a baked file. `nook bake
+ * probe` first removes suns from a map, so draw the suns as separate lights. `position_ws` and
+ * `function_count` are as in nook_probe_read_lobes. The GLSL of an upload reads the same amplitudes. The call
+ * does not allocate. Any thread. Errors: INVALID_ARGUMENT (also if the basis is not NOOK_PROBE_BASIS_LOBES),
+ * UNSUPPORTED (the probe has no amplitudes for gloss). */
 NOOK_API nook_result nook_probe_read_gloss(nook_probe probe, const float* position_ws, nook_lobe* lobes,
                                            uint32_t function_count);
 
@@ -121,7 +121,7 @@ NOOK_API nook_result nook_sg_rotate(nook_lobe* lobes, uint32_t lobe_count, const
 NOOK_API nook_result nook_sg_to_sh(const nook_lobe* lobes, uint32_t lobe_count, uint32_t order,
                                    float* coefficients);
 
-/* Pass it as `order` if the coefficients are the 5 x RGB of nook_sh_to_zh3. */
+/* The value of `order` for the 5 x RGB coefficients of nook_sh_to_zh3. */
 enum { NOOK_SH_ZH3 = 100 };
 
 /* Evaluates the radiance from `count` unit directions, exactly for these coefficients. order is 1 to 4, or
@@ -136,8 +136,9 @@ NOOK_API nook_result nook_sh_irradiance(const float* coefficients, uint32_t orde
                                         float* rgb, size_t count);
 
 /* Computes quadratic zonal harmonics, ZH3 (Roughton et al. 2024), from bands 0 to 2, 9 x RGB. The result is 5
- * x RGB: bands 0 and 1 unchanged, then one coefficient for band 2. It is the part of band 2 that is symmetric
- * around the direction of band 1's luminance. You can interpolate and pack ZH3 like other coefficients.
+ * x RGB: bands 0 and 1 unchanged, then one coefficient for band 2. This coefficient is the part of band 2
+ * that is symmetric around the direction of band 1's luminance. You can interpolate and pack ZH3 like other
+ * coefficients.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_to_zh3(const float* coefficients, float* zonal);
 
@@ -152,21 +153,21 @@ enum { NOOK_PROBE_BASIS_DICE = 2 };
 enum {
   /* The method of nook_probe_fit_desc. */
   NOOK_PROBE_FIT_STUDY_DEFAULT = 0,
-  /* m_i / sum_k G_ik, and m_i / G_ii for harmonics. Constant light is exact, and other light is blurred.
-   * match_sh has no effect. */
+  /* b_i = m_i / sum_k G_ik, or b_i = m_i / G_ii for harmonics. Constant light is exact, and other light is
+   * blurred. match_sh has no effect. */
   NOOK_PROBE_FIT_STUDY_NAIVE = 1,
   /* The running average in its first published form, b_i += (1 / n) B_i (v - R) / mean of B_i. It has the
-   * same limit as the corrected form, but about half the step, so it converges much more slowly. Not for
-   * harmonics. match_sh has no effect. */
+   * same limit as the corrected form, but about half the step, so it converges much more slowly. Not
+   * available for harmonics. match_sh has no effect. */
   NOOK_PROBE_FIT_STUDY_RUNNING_AVERAGE_ORIGINAL = 2,
   /* b = G^-1 m with the exact G. Merging fits is exact. */
   NOOK_PROBE_FIT_STUDY_MOMENTS = 3
 };
 typedef int32_t nook_probe_study_method;
 
-/* How D_i of the published step is computed. */
+/* How the divisor D_i of the published step is computed; see nook_probe_fit_study_desc.published_step. */
 enum {
-  /* An average over the same samples, but not below the exact integral. */
+  /* The average over the same samples, or the exact integral if this is larger. */
   NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,
   /* The exact integral. */
   NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1
@@ -197,10 +198,10 @@ static inline nook_result nook_probe_fit_study_desc_init(nook_probe_fit_study_de
   return nook_desc_init(NOOK_DESC_PROBE_FIT_STUDY, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Lets a running average without samples start from the coefficients of the fit `short_run` instead of 0.
- * They have the same weight as the samples of `short_run`. Both fits must have the same basis. Methods other
- * than running averages ignore the call. nook_probe_fit_reset removes the seed. No other thread may use the
- * fits.
+/* Starts the running average `fit` from the coefficients of the fit `short_run` instead of 0. `fit` must not
+ * have samples yet. The coefficients get the same weight as the samples of `short_run`. Both fits must have
+ * the same basis. Methods other than running averages ignore the call. nook_probe_fit_reset removes the seed.
+ * No other thread may use the fits.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
 

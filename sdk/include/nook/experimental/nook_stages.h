@@ -1,8 +1,8 @@
 /* The stages of the screen-space pass as data, for graphics interfaces other than OpenGL, such as Vulkan or
- * Direct3D. You get shader text, descriptions of images, and the numbers that the shaders read. You create
- * the images and pipelines, and draw. Only nook_nnao_read_timings makes OpenGL calls and needs an OpenGL
- * context. The library must be built with its OpenGL part (NOOK_GL, the default), because it contains the
- * shaders.
+ * Direct3D. You get the shader texts, descriptions of the images, and the values of the uniform buffers. You
+ * create the images and pipelines yourself, and draw the stages. Only nook_nnao_read_timings makes OpenGL
+ * calls and needs an OpenGL context. The library must be built with its OpenGL part (NOOK_GL, the default),
+ * because it contains the shaders.
  *
  * Once:
  *     nook_nnao_stages stages;
@@ -14,9 +14,9 @@
  *     nook_nnao_stages_frame(stages, &frame, &desc, NULL, 0, 0, &values);
  * Then, for each stage of values.drawn_stages in order, draw three vertices without attributes, without
  * blending, depth test and culling, into the viewport of the stage. Add barriers: a stage must end before the
- * next stage reads its output, and must not write images that the previous frame still reads. All images
- * except yours are written as colour attachments and read as textures; their contents before the first frame
- * do not matter. samples/vulkan does all this in Vulkan 1.1.
+ * next stage reads its output, and a stage must not write an image that the previous frame still reads. All
+ * images except yours are written as colour attachments and read as textures; their contents before the first
+ * frame do not matter. samples/vulkan does all this in Vulkan 1.1.
  *
  * The shaders are GLSL 4.50 for Vulkan, and also for OpenGL 4.5. Compile them with `glslangValidator -V`;
  * SPIRV-Cross can convert the result to HLSL or MSL. In set 0, binding 0 is a uniform buffer with
@@ -24,7 +24,7 @@
  * nook_nnao_stages_info.network. The input images start at binding 2. Use a sampler without filtering,
  * because the shaders read texels. The output is at location 0.
  *
- * In row 0 of every image, clip y must be -1. In Vulkan this is the first row; pass the projection that you
+ * In row 0 of every image, clip y must be -1. In Vulkan, row 0 is the first row; pass the projection that you
  * use in Vulkan. In Direct3D, and in Vulkan with viewports of negative height, clip y is 1 in the first row.
  * There, negate the second row of the projection (elements 1, 5, 9 and 13), and draw the stages with
  * viewports of positive height. Always set frame.clip_space to NOOK_CLIP_SPACE_ZERO_TO_ONE. View space looks
@@ -50,18 +50,18 @@ enum {
   NOOK_NNAO_IMAGE_HOST_NORMAL = 1,
   NOOK_NNAO_IMAGE_HOST_GBUFFER_AO = 2,
   NOOK_NNAO_IMAGE_HOST_MOTION_VECTORS = 3,
-  /* Linear depth of the surface, stored as the bits of a float, and with normal_samples the index of its
-   * sample. */
+  /* The linear depth of each pixel, stored as the bits of a float. With normal_samples, the image also stores
+   * the index of the sample that the depth comes from. */
   NOOK_NNAO_IMAGE_DEPTH = 4,
   /* AO and edges. */
   NOOK_NNAO_IMAGE_AO = 5,
   /* AO and edges after a filter draw. Filter draws write alternately to this image and to
    * NOOK_NNAO_IMAGE_AO. */
   NOOK_NNAO_IMAGE_FILTERED = 6,
-  /* With max_history_frames: the mean over frames, and the mean and the linear depth of the previous frame.
-   * After each frame you must swap NOOK_NNAO_IMAGE_DEPTH with NOOK_NNAO_IMAGE_HISTORY_DEPTH, and
-   * NOOK_NNAO_IMAGE_ACCUMULATED_AO with NOOK_NNAO_IMAGE_HISTORY_AO. Each view needs its own set of these four
-   * images. */
+  /* These three images exist only with max_history_frames. They hold the mean AO over frames, the linear
+   * depth of the previous frame, and the mean AO of the previous frame. After each frame you must swap
+   * NOOK_NNAO_IMAGE_DEPTH with NOOK_NNAO_IMAGE_HISTORY_DEPTH, and NOOK_NNAO_IMAGE_ACCUMULATED_AO with
+   * NOOK_NNAO_IMAGE_HISTORY_AO. Each view needs its own set of these four images. */
   NOOK_NNAO_IMAGE_ACCUMULATED_AO = 7,
   NOOK_NNAO_IMAGE_HISTORY_DEPTH = 8,
   NOOK_NNAO_IMAGE_HISTORY_AO = 9,
@@ -72,9 +72,9 @@ enum {
 };
 typedef int32_t nook_nnao_image;
 
-/* Formats by their channels, as DXGI_FORMAT and VkFormat name them. */
+/* Image formats. Their names list the channels, as in DXGI_FORMAT and VkFormat. */
 enum {
-  /* The image is yours, or does not exist. */
+  /* You provide the image, or no stage uses it. */
   NOOK_NNAO_FORMAT_NONE = 0,
   NOOK_NNAO_FORMAT_R8_UNORM = 1,
   NOOK_NNAO_FORMAT_R8G8_UNORM = 2,
@@ -131,12 +131,12 @@ NOOK_API nook_result nook_nnao_stages_describe_image(nook_nnao_stages stages, no
 typedef struct nook_nnao_stage_info {
   uint32_t struct_size;
   nook_nnao_image output;
-  /* "depth", "depth_apart", "occlusion", "accumulate", "filter_x", "filter_y", "resolve" or
-   * "resolve_layered", and the text of its fragment shader; valid while the object lives. The first two
-   * stages are alternatives: a frame draws "depth_apart" if frame.gbuffer_ao is NOOK_GBUFFER_AO_EXCLUDE,
-   * otherwise "depth". The last two are alternatives too: a frame draws "resolve" if frame.gbuffer_ao is
-   * NOOK_GBUFFER_AO_NONE, otherwise "resolve_layered". nook_nnao_frame_values.drawn_stages says which stages
-   * to draw. */
+  /* `name` is "depth", "depth_apart", "occlusion", "accumulate", "filter_x", "filter_y", "resolve" or
+   * "resolve_layered". `fragment_shader` is the text of the stage's fragment shader. Both are valid while the
+   * object lives. The first two stages are alternatives: a frame draws "depth_apart" if frame.gbuffer_ao is
+   * NOOK_GBUFFER_AO_EXCLUDE, otherwise "depth". The last two are alternatives too: a frame draws "resolve" if
+   * frame.gbuffer_ao is NOOK_GBUFFER_AO_NONE, otherwise "resolve_layered".
+   * nook_nnao_frame_values.drawn_stages says which stages to draw. */
   const char* name;
   const char* fragment_shader;
   /* 1: the viewport is nook_nnao_frame_values.viewport; 0: it is surface_width x surface_height at (0, 0). */
@@ -148,7 +148,7 @@ typedef struct nook_nnao_stage_info {
   nook_nnao_image inputs[NOOK_NNAO_STAGE_MAX_INPUTS];
 } nook_nnao_stage_info;
 
-/* index is less than nook_nnao_stages_info.stage_count.
+/* `index` is less than nook_nnao_stages_info.stage_count.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_nnao_stages_describe_stage(nook_nnao_stages stages, uint32_t index,
                                                      nook_nnao_stage_info* info);
@@ -166,13 +166,13 @@ typedef struct nook_nnao_frame_values {
 } nook_nnao_frame_values;
 
 /* Computes the values of a frame. The result depends only on the arguments, and the call does not allocate.
- * Set frame->normal_texture and desc->motion_vectors to 1 if the frame has such images; no other texture name
- * is read. The call does not know the format of the normals. If normal_bias is not 0, it assumes normalised
- * integers, in which normals shorter than 0.25 are reconstructed from depth. `target` and `target_name` are
- * not read; `blend` is read only with bent normals. The debug view (`show`) can be NOOK_NNAO_VIEW_AO or
- * BLURRED, or RAW without max_history_frames. `earlier` is the previous frame, or NULL after a cut. `number`
- * is the number of earlier frames; it rotates the noise in passes with max_history_frames. `view` is less
- * than nook_nnao_desc.views, or 0.
+ * Set frame->normal_texture and desc->motion_vectors to 1 if the frame has such images; the call reads no
+ * other texture names. The call does not know the format of the normals. If normal_bias is not 0, it assumes
+ * normalised integers, in which normals shorter than 0.25 are reconstructed from depth. `target` and
+ * `target_name` are not read; `blend` is read only with bent normals. The debug view (`show`) can be
+ * NOOK_NNAO_VIEW_AO or BLURRED, or RAW without max_history_frames. `earlier` is the previous frame, or NULL
+ * after a cut. `number` is the number of frames before this one. In passes with max_history_frames, `number`
+ * changes the noise from frame to frame. `view` is less than nook_nnao_desc.views, or 0.
  * Any thread. Errors: INVALID_ARGUMENT (as nook_nnao_render). */
 NOOK_API nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_gl_frame_desc* frame,
                                             const nook_nnao_frame_desc* desc,
@@ -181,7 +181,7 @@ NOOK_API nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_
 
 /* ---- Tables of clips, for hosts without OpenGL ---- */
 
-/* The two textures of uploaded clips in nook_gl.h. */
+/* The two textures of an upload of clips; see nook_gl.h. */
 enum {
   /* RGBA with signed 8-bit channels (GL_RGBA8_SNORM from GL_BYTE): mode_count / 4 texels for each file
    * vertex. */
@@ -206,17 +206,17 @@ NOOK_API nook_result nook_clips_read_table(nook_clips clips, nook_clips_table ta
  * option. Makes no OpenGL call. Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION. */
 NOOK_API nook_result nook_nnao_memory(const nook_nnao_desc* desc, uint64_t* bytes);
 
-/* The GPU time of each stage in the last finished frame, in milliseconds; with nook_nnao_desc.views, for the
- * last view. */
+/* The GPU time of each stage in the last finished frame, in milliseconds. With nook_nnao_desc.views, these
+ * are the times of the last view. */
 typedef struct nook_nnao_timings {
   uint32_t struct_size;
   /* 0: no frame is finished yet, or the pass has no timers; all other fields are then 0. */
   int32_t valid;
   /* Linear depth, and the normals of the paper's form. */
   float normals;
-  /* The network, the edges, reading or reconstructing normals, and the mean over frames. */
+  /* The network, edge detection, reading or reconstructing normals, and the mean over frames. */
   float occlusion;
-  /* The filter at half resolution; at full resolution it is a part of resolve. */
+  /* The filter at half resolution. At full resolution, `resolve` includes the filter. */
   float blur;
   /* Filtering or upsampling, combining with G-buffer AO, and writing the target. */
   float resolve;

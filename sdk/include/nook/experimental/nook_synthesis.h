@@ -1,6 +1,6 @@
 /* Coordinate textures cover a plane with a compressed material, without visible repeats. `nook bake
- * synthesis` makes them; the material need not tile. Each texel of the plane stores which texel of the
- * material is shown there.
+ * synthesis` makes coordinate textures; the material need not tile. Each texel of the plane stores which
+ * texel of the material is shown there.
  *
  * nook_gl_upload_synthesis uploads a coordinate texture and gives its GLSL. */
 #ifndef NOOK_SYNTHESIS_H
@@ -32,7 +32,8 @@ typedef struct nook_synthesis_info {
    * nook_material_info, and use the coordinate texture only with a material of the same size. */
   uint32_t material_width;
   uint32_t material_height;
-  /* The size of the texture, in host memory, and in texture memory after an upload. */
+  /* The bytes that the texture takes in host memory. An upload takes the same number of bytes in texture
+   * memory. */
   uint64_t texture_bytes;
 } nook_synthesis_info;
 
@@ -40,10 +41,10 @@ typedef struct nook_synthesis_info {
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_synthesis_describe(nook_synthesis synthesis, nook_synthesis_info* info);
 
-/* Gives the material's texture coordinates at points of the plane, for nook_material_pixel. For the plane,
- * pass the texture coordinates that you would use to tile the material. Both coordinates are in tiles of the
- * material. Take dx and dy of the pixel from the plane's coordinates. Any thread. Errors: INVALID_ARGUMENT
- * (also if a coordinate of the plane is not finite). */
+/* Gives the material's texture coordinates at points of the plane, for nook_material_pixel. In plane_uvs,
+ * pass the texture coordinates that you would use to tile the material. plane_uvs and material_uvs are in
+ * tiles of the material. Compute dx and dy of nook_material_pixel from the plane's coordinates. Any thread.
+ * Errors: INVALID_ARGUMENT (also if a coordinate of the plane is not finite). */
 NOOK_API nook_result nook_synthesis_material_uvs(nook_synthesis synthesis, const float* plane_uvs,
                                                  uint32_t count, float* material_uvs);
 
@@ -58,14 +59,14 @@ NOOK_API nook_result nook_synthesis_material_uvs(nook_synthesis synthesis, const
  *     vec2 at = nook_synthesis_material_uv(uv);
  *     nook_material_decode(at, dFdx(uv), dFdy(uv), view, modes);
  *     alpha = nook_material_visibility(nook_material_occlusion(at, dFdx(uv), dFdy(uv), view));
- * This takes one more fetch per pixel. */
+ * The coordinate texture takes one more texture fetch per pixel. */
 
 /* Uploads a coordinate texture, which you may destroy afterwards. The upload consists of a
  * GL_TEXTURE_2D_ARRAY of GL_RG16UI for the sampler nook_synthesis_texels, and GLSL with the function
  *     vec2 nook_synthesis_material_uv(vec2 uv);
- * Planes and materials of the same sizes have the same GLSL. On failure *out is NULL and no OpenGL object is
- * left. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the plane is larger than a texture of this
- * OpenGL), GL, OUT_OF_MEMORY. */
+ * The GLSL depends only on the sizes of the plane and of the material. On failure *out is NULL and no OpenGL
+ * object is left. Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the plane is larger than a texture
+ * of this OpenGL), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_upload_synthesis(nook_gl gl, nook_synthesis synthesis, nook_gl_upload* out);
 
 #ifdef __cplusplus

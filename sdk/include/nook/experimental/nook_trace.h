@@ -13,15 +13,15 @@ extern "C" {
 
 /* Which clips a model is fitted to, if clip_names is empty. */
 enum {
-  /* Every clip that has motion; clips named T-pose or A-pose have none. */
+  /* Every clip that has motion. Clips named T-pose or A-pose are treated as clips without motion. */
   NOOK_BAKE_SPLIT_ALL = 0,
-  /* Every second one of the clips of ALL, in byte order of their names, starting with the first. You can use
-   * the other clips to measure. */
+  /* Every second clip of NOOK_BAKE_SPLIT_ALL, in byte order of the names, starting with the first. You can
+   * use the other clips to measure the error. */
   NOOK_BAKE_SPLIT_HALF = 1,
-  /* Every second family of the clips of ALL. A family consists of all clips whose names start with the same
-   * word, ignoring case. A word ends at a digit, at a punctuation character or before a capital letter. Two
-   * parts of a name are ignored: the part up to its last | or :, and a prefix that all names share and that
-   * ends with punctuation or a digit. A file with only one family is refused. */
+  /* Every second family of the clips of NOOK_BAKE_SPLIT_ALL. A family consists of all clips whose names start
+   * with the same word, ignoring case. A word ends at a digit, at a punctuation character or before a capital
+   * letter. Two parts of a name are ignored: the part up to its last | or :, and a prefix that all names
+   * share and that ends with punctuation or a digit. A file with only one family is refused. */
   NOOK_BAKE_SPLIT_FAMILIES = 2
 };
 typedef int32_t nook_bake_clip_split;
@@ -30,7 +30,7 @@ typedef int32_t nook_bake_clip_split;
 typedef struct nook_bake_character_study_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Default ALL. */
+  /* Default NOOK_BAKE_SPLIT_ALL. */
   nook_bake_clip_split clip_split;
   /* NOOK_FORM_PAPER: the kernel of Le et al. 2019, with any fit. Default NOOK_FORM_DEFAULT: the kernel that
    * belongs to nook_bake_character_desc.form. */
@@ -70,7 +70,7 @@ typedef struct nook_bake_occluder_mesh {
 typedef struct nook_bake_trace_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* NULL only if mesh_count is 0; then everything is open. */
+  /* May be NULL only if mesh_count is 0. Nothing occludes the points then. */
   const nook_bake_occluder_mesh* meshes;
   /* The receivers: world space, metres, 3 floats for each point. */
   const float* positions;
@@ -78,13 +78,13 @@ typedef struct nook_bake_trace_desc {
   const float* normals;
   uint32_t mesh_count;
   uint32_t point_count;
-  /* Cosine-weighted rays for each point, up to 65,536; default 64. */
+  /* The number of cosine-weighted rays for each point, up to 65,536; default 64. */
   uint32_t rays;
-  /* Default 0: all cores; up to 1024. */
+  /* The number of threads, up to 1024. The default 0 uses all cores. */
   uint32_t threads;
-  /* Default 1. The result does not depend on the number of threads. */
+  /* The random seed, default 1. The result does not depend on the number of threads. */
   uint64_t seed;
-  /* Metres, > 0, default infinity. Hits beyond this distance count as open. */
+  /* Metres, > 0, default infinity. A ray that hits nothing within this distance counts as open. */
   float radius;
   /* The distance of a ray's origin from its point, in metres along the normal; >= 0, default 1e-4. */
   float origin_offset;
@@ -109,8 +109,8 @@ NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float*
  * columns go around y. The middle column looks along +x; a quarter of the width to the right, columns look
  * along +z. */
 typedef struct nook_bake_environment {
-  /* 3 floats in [0, 1e15] for each texel, rows from the top. NULL only if width is 0; then the environment is
-   * black. */
+  /* 3 floats in [0, 1e15] for each texel, rows from the top. May be NULL only if width is 0. The environment
+   * is then black. */
   const float* rgb;
   /* Texels, up to 16384. */
   uint32_t width;
@@ -135,7 +135,7 @@ typedef struct nook_bake_lit_mesh {
 typedef struct nook_bake_irradiance_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* NULL only if mesh_count is 0; then everything is open. */
+  /* May be NULL only if mesh_count is 0. Nothing occludes the points then. */
   const nook_bake_lit_mesh* meshes;
   /* The receivers: world space, metres, 3 floats for each point. */
   const float* positions;
@@ -145,11 +145,11 @@ typedef struct nook_bake_irradiance_desc {
   nook_bake_environment environment;
   uint32_t mesh_count;
   uint32_t point_count;
-  /* Paths for each point, up to 65,536; default 64. */
+  /* The number of paths for each point, up to 65,536; default 64. */
   uint32_t rays;
-  /* Default 0: all cores; up to 1024. */
+  /* The number of threads, up to 1024. The default 0 uses all cores. */
   uint32_t threads;
-  /* Default 1. The result does not depend on the number of threads. */
+  /* The random seed, default 1. The result does not depend on the number of threads. */
   uint64_t seed;
   /* The maximum number of reflections; 0 traces direct light only. Default UINT32_MAX: no maximum, so that
    * the result is unbiased. */

@@ -4,11 +4,11 @@
  * Light is represented by lobes: spherical Gaussians with the same sharpness, distributed evenly over the
  * sphere. A vertex p has, for channel c and light mode a of a material, the vector
  *     r_p[c, a] = sum over lobes j of amplitude_j[c] share_p,j response[c, a](direction of lobe j at p),
- * where the share (a byte of the file) is the cosine-weighted part of the lobe that no triangle hides from
- * the vertex, and the response is the integral of the lobe times the material's light basis over the upper
- * hemisphere. Light that the shape reflects onto itself is added if you bake with `--bounces`; it uses the
- * mean reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a], with the light modes
- * L_a of nook_material_decode and r interpolated between vertices.
+ * share_p,j is a byte of the file: the cosine-weighted fraction of lobe j that no triangle hides from vertex
+ * p. The response is the integral of the lobe times the material's light basis over the upper hemisphere.
+ * Light that the shape reflects onto itself is added if you bake with `--bounces`; it uses the mean
+ * reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a], with the light modes L_a
+ * of nook_material_decode and r interpolated between vertices.
  *
  * When the light or the shape rotates, call
  *     nook_transfer_light_project(light, lobe_count, NULL, amplitudes, NULL);
@@ -19,13 +19,13 @@
  *
  * Directions are in the space of the baked vertices. Frames have x in the direction of increasing u, z along
  * the normal, and y = handedness * cross(normal, tangent) in the direction of increasing v. The vectors of a
- * vertex are 3 x light_modes floats: the modes of red, then of green, then of blue. Least squares rings
- * around bright sources, so light and vectors can be slightly negative; nook_transfer_projection_info gives
- * the negative share.
+ * vertex are 3 x light_modes floats: the modes of red, then of green, then of blue. The least-squares fit
+ * rings around bright sources, so light and vectors can be slightly negative; nook_transfer_projection_info
+ * gives the negative share.
  *
  * nook_gl_upload_transfer keeps vectors in a buffer, and nook_gl_upload_describe gives the GLSL. The method
  * follows section 6.3 of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012. The paper's
- * form is their method; the default form separates transfer and material. */
+ * form is the method of that paper. The default form separates transfer and material. */
 #ifndef NOOK_TRANSFER_H
 #define NOOK_TRANSFER_H
 
@@ -96,8 +96,8 @@ typedef struct nook_transfer_mesh_desc {
   const void* next;
   /* Required. */
   uint32_t vertex_count;
-  /* 3, 3, 4 and 2 floats for each vertex; arrays that are NULL (default) are not compared. The numbers must
-   * be bit for bit the same as in the bake, in the space of the file's scene. */
+  /* 3, 3, 4 and 2 floats for each vertex; arrays that are NULL (default) are not compared. The values must be
+   * bit-identical to the values in the bake, in the space of the file's scene. */
   const float* positions;
   const float* normals;
   const float* tangents;
@@ -111,10 +111,11 @@ static inline nook_result nook_transfer_mesh_desc_init(nook_transfer_mesh_desc* 
  * check. Call it once after loading, because nook_transfer_read_vectors does not compare meshes.
  *
  * The mesh must have the same number of vertices as the baked mesh, and the same checksum of each array. For
- * the paper's form, the material must have the baked light modes. If the bake let light through holes, it
- * must have the baked VOTF. You can still draw a material with another VOTF; its shadows then show the baked
- * holes, and `nook evaluate transfer` measures the error. Reflected light adapts to any material. Any thread.
- * Errors: INVALID_ARGUMENT (the message names the first array or the part of the material that differs). */
+ * the paper's form, the material must have the baked light modes. If the bake let light through holes, the
+ * material must also have the VOTF of the bake. You can still draw a material with another VOTF; its shadows
+ * then show the baked holes, and `nook evaluate transfer` measures the error. Reflected light adapts to any
+ * material. Any thread. Errors: INVALID_ARGUMENT (the message names the first array or the part of the
+ * material that differs). */
 NOOK_API nook_result nook_transfer_check(nook_transfer transfer, const nook_transfer_mesh_desc* mesh,
                                          nook_material material);
 
@@ -146,9 +147,9 @@ typedef struct nook_transfer_light_desc {
    * shadow maps and nook_material_radiance, because lobes ring around a sun. Default 0. A sun is a texel
    * whose luminance is above 100 times the mean of the map without its suns. */
   int32_t split_suns;
-  /* The light of a probe at a point. Default NULL. */
+  /* The probe whose light is used, at the point `position_ws`. Default NULL. */
   nook_probe probe;
-  /* 3 floats, as in nook_probe_read_lobes. Default NULL. */
+  /* The point for `probe`: 3 floats, as in nook_probe_read_lobes. Default NULL. */
   const float* position_ws;
   /* The direction that the light comes from, a unit vector of 3 floats. */
   const float* direction;
@@ -191,7 +192,7 @@ typedef struct nook_transfer_projection_info {
   /* The relative error is the root of the integral of the squared difference divided by the integral of the
      squared light. */
   float relative_error;
-  /* The negative part of the light in the lobes, relative to its magnitude. */
+  /* The integral of the negative part of the lobes' light, divided by the integral of its absolute value. */
   float negative_share;
 } nook_transfer_projection_info;
 
@@ -201,10 +202,10 @@ typedef struct nook_transfer_projection_info {
  *
  * The first call with a lobe_count factors a Gram matrix, which takes about lobe_count^3 / 6 multiply-adds.
  * The context keeps the matrix until it is destroyed, in lobe_count^2 * 4 bytes (25 MiB at 2562). Later calls
- * only solve. `info` may be NULL; filling it takes about as long as the projection. It must be NULL for a
- * light from a direction, because the square of such a light has no integral. The call allocates with your
- * allocator. Any thread. Errors: INVALID_ARGUMENT (also if light_from_shape is not a rotation to 1e-3),
- * OUT_OF_MEMORY. */
+ * with the same lobe_count only solve with this matrix. `info` may be NULL; filling it takes about as long as
+ * the projection. It must be NULL for a light from a direction, because the square of such a light has no
+ * integral. The call allocates with your allocator. Any thread. Errors: INVALID_ARGUMENT (also if
+ * light_from_shape is not a rotation to 1e-3), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_light_project(nook_transfer_light light, uint32_t lobe_count,
                                                  const float* light_from_shape, float* amplitudes,
                                                  nook_transfer_projection_info* info);
@@ -240,9 +241,9 @@ typedef struct nook_transfer_response_info {
   /* The number of light modes of one channel: R_l of the material, rounded up to a multiple of 4. It is 4 *
    * NOOK_LIGHT_VEC4_COUNT of the material's GLSL. */
   uint32_t light_modes;
-  /* The number of floats of a vertex, 3 * light_modes. */
+  /* The number of floats in the vector of a vertex, 3 * light_modes. */
   uint32_t vector_floats;
-  /* Memory of the table. */
+  /* The bytes of the table of responses in memory. */
   uint64_t table_bytes;
   /* The share of light that the material reflects under uniform light, RGB, 0 to 1. */
   float reflectance[3];
@@ -308,9 +309,9 @@ NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_mate
  *     vec4 modes[NOOK_LIGHT_VEC4_COUNT];
  *     nook_material_decode(uv, dFdx(uv), dFdy(uv), view, modes);
  *     colour = max(nook_transfer_radiance(modes, vectors), 0.0);
- * 16 light modes take 12 varyings of the 15 that every OpenGL 3.3 has. For a material with more light modes,
- * use nook_transfer_mix in the fragment shader instead. You can also upload the floats of
- * nook_transfer_read_vectors as your own vertex attributes, and call the same nook_transfer_radiance. */
+ * With 16 light modes, the vectors take 12 of the 15 varyings that every OpenGL 3.3 supports. For a material
+ * with more light modes, use nook_transfer_mix in the fragment shader instead. You can also upload the floats
+ * of nook_transfer_read_vectors as your own vertex attributes, and call the same nook_transfer_radiance. */
 
 /* Creates an upload for a transfer and a response, with all light 0. With a transfer in the default form, or
  * with `transfer` NULL and `vertex_count` vertices of your own, the upload holds vectors. With a transfer in
@@ -328,8 +329,8 @@ NOOK_API nook_result nook_gl_upload_transfer(nook_gl gl, nook_transfer transfer,
 /* Sets the light of an upload of nook_gl_upload_transfer. If the upload holds vectors, pass vertex_count x
  * vector_floats without gaps, as nook_transfer_read_vectors writes them. In the paper's form, pass the
  * amplitudes of the lobes, lobe_count x RGB; the CPU computes the matrices of the clusters from them, using
- * the context's parallel_for. Draws that you issued before still read the old light. The call does not wait
- * for the GPU.
+ * the context's parallel_for. Draws that you issued before the call still use the old light. The call does
+ * not wait for the GPU.
  * Context thread. Errors: INVALID_ARGUMENT (also if float_count does not fit the upload), GL,
  * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_update_transfer(nook_gl_upload upload, const float* values,

@@ -26,14 +26,14 @@ NOOK_API nook_result nook_model_read_capsules(nook_model model, nook_model_capsu
 typedef struct nook_world_sample_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* A position in world space and metres, and a unit normal, with three floats each, for each point. If one
-   * of them is not finite, the point is not occluded. */
+  /* Three floats for each point: the position in metres in world space, and the unit normal. A point whose
+   * position or normal is not finite counts as not occluded. */
   const float* positions;
   const float* normals;
   uint32_t point_count;
   /* Bytes from one point to the next in both arrays, a multiple of 4. The default 0 means 12. */
   uint32_t stride;
-  /* Casters in addition to those in the scene; default none. */
+  /* Additional casters that are not in the scene; default none. */
   const nook_capsule* capsules;
   uint32_t capsule_count;
   /* The instance that the points belong to; it does not darken them. Default 0: every instance darkens the
@@ -43,8 +43,8 @@ typedef struct nook_world_sample_desc {
    * Default 0 degrees: no light. */
   float light_axis[3];
   float light_degrees;
-  /* The light whose open share directional_ao gets: at most NOOK_PROBE_MAX_FUNCTIONS lobes in world space;
-   * default none. For a small sun, use light_axis instead of a lobe. */
+  /* The light for directional_ao: at most NOOK_PROBE_MAX_FUNCTIONS lobes in world space; default none. For a
+   * small sun, use light_axis instead of a lobe. */
   const nook_lobe* lobes;
   uint32_t lobe_count;
   /* NULL (default), or an array for three floats per point. It receives the open share of the lobes' light in
@@ -56,16 +56,15 @@ static inline nook_result nook_world_sample_desc_init(nook_world_sample_desc* de
   return nook_desc_init(NOOK_DESC_WORLD_SAMPLE, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Computes at each point the AO that the casters leave, in [0, 1], and the open share of the light. Use it
- * for lightmaps, particles and everything else that a pass cannot see. `scene` may be NULL if only
- * desc->capsules cast. The call uses the poses of the last nook_scene_set_pose; you need not call
- * nook_scene_update. `ao` and `light` receive point_count floats each; either may be NULL. An occluder with a
- * receiver darkens only this receiver.
+/* Computes the AO in [0, 1] and the open share of the light at each point. Use it for lightmaps, particles
+ * and everything else that a pass cannot see. `scene` may be NULL if only desc->capsules cast. The call uses
+ * the poses of the last nook_scene_set_pose; you need not call nook_scene_update. `ao` and `light` receive
+ * point_count floats each; either may be NULL. An occluder with a receiver darkens only this receiver.
  *
  * A body is skipped for a block of points if it darkens each of them by less than the scene's cutoff_error.
  * The bound is (sum over its casters of r (r + 2 l / pi)) / d^2, with the scaled radii r, the lengths l, and
- * the distance d between the bounding spheres of the body and the block. So each skipped body changes a point
- * by at most cutoff_error. Free occluders and desc->capsules are never skipped.
+ * the distance d between the bounding spheres of the body and the block. So each skipped body changes the AO
+ * of a point by at most cutoff_error. Free occluders and desc->capsules are never skipped.
  *
  * The call does not allocate. It uses the parallel_for of the scene's context, if there is one. One at a
  * time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
@@ -73,11 +72,11 @@ NOOK_API nook_result nook_world_sample(nook_scene scene, const nook_world_sample
                                        float* light);
 
 /* Poses the capsules of nook_model_read_capsules at a time of a clip, and writes them in world space. If the
- * character is not in a scene, pass them as `capsules` of nook_world_sample_desc and nook_world_frame_desc.
- * The radii include the scale for AO. Set *count to the capacity of `out`; the call sets it to the number of
- * capsules of the model. With `out` NULL, the call only sets *count. Any thread. Errors: INVALID_ARGUMENT
- * (also if the capacity is too small), UNSUPPORTED (the model was baked without capsules; *count becomes
- * 0). */
+ * character is not in a scene, pass the written capsules as `capsules` of nook_world_sample_desc and
+ * nook_world_frame_desc. The radii include the scale for AO. Set *count to the capacity of `out`; the call
+ * sets it to the number of capsules of the model. With `out` NULL, the call only sets *count. Any thread.
+ * Errors: INVALID_ARGUMENT (also if the capacity is too small), UNSUPPORTED (the model was baked without
+ * capsules; *count becomes 0). */
 NOOK_API nook_result nook_clips_read_capsules(nook_clips clips, const nook_clip_time* time,
                                               const float* place_3x4, nook_capsule* out, uint32_t* count);
 
