@@ -98,8 +98,8 @@ typedef struct nook_bake_transfer_desc {
   /* The number of light bounces between parts of the shape, 0 (default) to 2. Each bounce adds 18 bytes per
    * vertex. */
   uint32_t bounces;
-  /* The number of tiles of the material in one unit of texture coordinates, 0.01 to 1000; default 1. Only
-   * used with `votf`. */
+  /* One unit of texture coordinates contains this many tiles of the material, 0.01 to 1000; default 1. Only
+   * `votf` uses it. */
   float tiles;
   /* The bytes of a .nook file with the shape's material. The material must have a VOTF. Light falls through
    * the holes of the VOTF. NULL (default): surfaces have no holes. */

@@ -32,7 +32,7 @@ typedef struct nook_gl_capture_desc {
    * NULL. The capture does not change the walls of the grid. Set at least one of `probe` and `grid`. If you
    * set both, they must have the same counts, origin and spacing. */
   nook_gl_upload grid;
-  /* The side length of a cube-map face at mipmap level `level`, in texels; 4 to 512, default 64. */
+  /* A cube-map face has this side length at mipmap level `level`: 4 to 512 texels, default 64. */
   uint32_t face_size_px;
   /* The mipmap level of the cube map that is read, at most 15, default 0. If you render large faces, generate
    * mipmaps and use the level with 64 texels or less. */

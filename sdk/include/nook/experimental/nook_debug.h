@@ -1,8 +1,9 @@
-/* Aids for debugging: shapes to draw, a choice of the casters that updates evaluate, the memory of a model on
- * the GPU, and debug views and settings of the screen pass and the world pass. The shapes show what a scene
- * evaluates: the proxy spheres and key points of an instance in its pose, its links, and its level of detail.
- * Draw them over your own image to see why the AO of a character is wrong. For example, a sphere may stick
- * out of the body, a bone may not follow, or a neighbour may not be linked.
+/* Aids for debugging. You can draw the shapes that a scene evaluates, choose the casters that updates
+ * evaluate, and read the memory of a model on the GPU. You can also set debug views and options of the screen
+ * pass and the world pass. The shapes show what a scene evaluates: the proxy spheres and key points of an
+ * instance in its pose, its links, and its level of detail. Draw them over your own image to see why the AO
+ * of a character is wrong. For example, a sphere may stick out of the body, a bone may not follow, or a
+ * neighbour may not be linked.
  *
  * The functions that describe or read an instance do not allocate memory and do not change the scene.
  * nook_scene_set_terms changes what the next updates evaluate, and nook_gl_model_memory gives the memory of a

@@ -50,8 +50,8 @@ enum {
   NOOK_NNAO_IMAGE_HOST_NORMAL = 1,
   NOOK_NNAO_IMAGE_HOST_GBUFFER_AO = 2,
   NOOK_NNAO_IMAGE_HOST_MOTION_VECTORS = 3,
-  /* The linear depth of each pixel, stored as the bits of a float. With normal_samples, the image also stores
-   * the index of the sample that the depth comes from. */
+  /* This image stores the linear depth of each pixel, as the bits of a float. With normal_samples, it also
+   * stores the index of the sample that the depth comes from. */
   NOOK_NNAO_IMAGE_DEPTH = 4,
   /* AO and edges. */
   NOOK_NNAO_IMAGE_AO = 5,

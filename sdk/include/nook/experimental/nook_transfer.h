@@ -192,7 +192,8 @@ typedef struct nook_transfer_projection_info {
   /* The relative error is the root of the integral of the squared difference divided by the integral of the
      squared light. */
   float relative_error;
-  /* The integral of the negative part of the lobes' light, divided by the integral of its absolute value. */
+  /* This is the integral of the negative part of the lobes' light, divided by the integral of its absolute
+   * value. */
   float negative_share;
 } nook_transfer_projection_info;
 
