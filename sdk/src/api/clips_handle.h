@@ -9,7 +9,7 @@
 #include "sdk/src/character/loaded_clips.h"
 
 struct nook_clips_s : Meter, nook::LoadedClips {
-  // make(Memory*) returns the ClipSet, in that memory.
+  // make(Memory*) must return the ClipSet, allocated from that memory.
   template <class Make>
   nook_clips_s(nook_context_s* made_by, nook::Ref<const nook::LoadedModel> of, Make&& make)
       : Meter(made_by->memory()), LoadedClips(make(&metered), std::move(of), &metered), context(made_by) {}

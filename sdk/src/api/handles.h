@@ -17,8 +17,8 @@ struct nook_context_s final : nook::Context {
   nook::transfer::FitCache lobe_fits{memory()};
 
  private:
-  // The memory of this object comes from the allocator that it contains. So the code copies the allocator
-  // first, and frees the memory with the copy.
+  // The memory of this object comes from the allocator that the object contains. So destroy first copies the
+  // allocator, and then frees the memory with the copy.
   void destroy() noexcept override {
     nook::HostMemory memory(allocator());
     this->~nook_context_s();

@@ -9,7 +9,7 @@
 
 namespace nook::api {
 
-// Both overloads log those topics of the notes that were not reported yet, and mark them as reported.
+// Both overloads log the topics of `notes` that were not logged before, and mark these topics as logged.
 void log_pose(const Context& context, Instance& instance, const PoseNotes& notes);
 // `subject` is the name of the object or function to which the pose belongs.
 void log_pose(const Context& context, const char* subject, const CharacterModel& model,

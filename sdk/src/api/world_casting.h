@@ -24,7 +24,8 @@ void check_props(const char* descriptor, const nook_capsule* props, std::uint32_
 world::LightTerms terms_of_lobes(const char* descriptor, const nook_lobe* lobes, std::uint32_t count,
                                  const float* turn = nullptr);
 
-// Returns the normalised axis of a cone of light. Throws Failure if the axis or the angle is invalid.
+// Checks a cone of light and returns its axis with unit length. Throws Failure if the axis or the angle is
+// invalid.
 Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees);
 
 inline float half_angle_radians(float degrees) {
@@ -37,13 +38,13 @@ class Casting {
   // be NULL. `receiver` is an instance that must not cast, or 0.
   Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* props, std::uint32_t prop_count);
 
-  // Returns the number of groups: bodies by slot, then occluders by slot, then props. A free slot is a group
-  // without casters.
+  // Returns the number of groups. The groups are the bodies by slot, then the occluders by slot, then the
+  // props. A free slot is a group without casters.
   std::uint32_t group_count() const;
   // If a group is a body, returns its parts. Otherwise returns NULL. The result is valid until the next call.
   const world::CasterParts* parts(std::uint32_t index) const;
-  // A callback for world::CasterGroups; `user` must point to a Casting. Occluders and props get infinite
-  // strength, so that they are never skipped.
+  // A callback for world::CasterGroups; `user` must point to a Casting. Occluders and props have infinite
+  // strength, so no call skips them.
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
 
  private:

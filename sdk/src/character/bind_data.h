@@ -14,7 +14,7 @@
 namespace nook {
 
 struct BoneBind {
-  // Maps rest space to the joint's own space: the matrix of the bone is joint_to_world * node_from_rest.
+  // Maps rest space to the joint's own space. The matrix of the bone is joint_to_world * node_from_rest.
   Mat3x4 node_from_rest;
   // The first bone of the same joint. A joint has several bones if several skins bind it differently.
   std::uint16_t first_of_joint = 0;

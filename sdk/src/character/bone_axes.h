@@ -1,5 +1,5 @@
-// Tests whether the matrix of a bone is a rotation with uniform scale, for matrices of any precision. All
-// code uses this one test.
+// Tests whether the matrix of a bone is a rotation with uniform scale. All code uses this test, for float and
+// for double matrices.
 #pragma once
 
 #include <algorithm>
@@ -16,8 +16,9 @@ struct BoneAxes {
   Real shear = 0;  // the largest absolute dot product of two axes; divided by longest_squared, about the
                    // cosine of their angle
 
-  // True for a rotation with uniform scale, within 1 %. 1 % of the length is 2 % of the squared length; the
-  // last digits of the constants allow for rounding. A zero matrix is not even.
+  // True if the matrix is a rotation with uniform scale, within 1 % of the length. The constants are about 2
+  // %, because squared lengths are compared; their last digits allow for rounding. A zero matrix returns
+  // false.
   bool is_even() const {
     const Real shortest = std::min({squared[0], squared[1], squared[2]});
     return longest_squared > 0 && longest_squared <= shortest * Real(1.0205) &&

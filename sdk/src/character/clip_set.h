@@ -1,6 +1,6 @@
-// The clips of a character as tables over frames: its own AO at each vertex and the pose of each bone. Both
-// are sums of a few weighted modes, so that a frame is a short row of weights. Plain data, rest space and
-// metres.
+// The clips of a character as two tables over frames. One table holds the character's own AO at each vertex,
+// the other the pose of each bone. Each column of a table is a sum of a few weighted modes, so a frame only
+// stores a short row of weights. Plain data, rest space and metres.
 #pragma once
 
 #include <nook/nook.h>
@@ -78,8 +78,9 @@ struct ClipSet {
   // four, because shaders read them in fours.
   FrameTable<std::int8_t> ao;
   Vector<BoneSpan> bones;
-  // For each bone, rest space to the clip's space: radius times the nine numbers of its rotation and scale,
-  // row by row, then the position of its centre. So all rows are in metres on the body.
+  // For each bone, the map from rest space to the clip's space as 12 values: BoneSpan::radius times the nine
+  // elements of rotation and scale, row by row, then the position of BoneSpan::centre. So errors of all 12
+  // values are lengths in metres on the body.
   FrameTable<std::int16_t> pose;
   String recipe;  // JSON text of the bake's settings; the runtime does not read it
 };
@@ -87,11 +88,11 @@ struct ClipSet {
 // Throws Failure with `code` and the first fault. A count or index may be out of range, an array may have the
 // wrong length, or a number may not be finite or within its range.
 void check_clip_set(const ClipSet& set, nook_result code);
-// Checks the counts alone, before an array is read.
+// Checks only the counts. Call it before you read an array.
 void check_clip_counts(const ClipSet& set, nook_result code);
 
-// Returns a hash of what a set depends on in the model: the order of welded vertices and bones. It stays the
-// same if you bake the character again, or put the model in the order of a host's mesh.
+// Returns a hash of the order of the model's welded vertices and bones, on which a ClipSet depends. The hash
+// stays the same if you bake the character again, or if you reorder the model to match a host's mesh.
 std::uint64_t clip_model_hash(const CharacterModel& model);
 
 // Throws Failure(INVALID_ARGUMENT) unless the set was baked from the model's character.
@@ -104,15 +105,15 @@ void check_clip_model(const ClipSet& set, const CharacterModel& model);
 //   BONE  varint number of bones; for each: f32 centre x, y, z, radius
 //   POSE  f32 scale of each mode; frames x modes i16 weights; modes x 12 bones i16
 //   RECP  recipe
-// The structs above say what they mean.
+// The structs above document the values.
 
 inline constexpr ContainerKind clip_kind{four_letters("CLIP"), "clips", 1, 1};
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if check_clip_set finds a fault.
 std::vector<std::byte> write_clip_set(const ClipSet& set);
 
-// Hostile bytes are safe, also with a correct checksum: the call throws Failure(NOOK_ERROR_BAD_FILE or
-// NOOK_ERROR_FILE_VERSION), and allocates up to twice the file's size.
+// Safe for untrusted bytes, even if their checksum is correct. For an invalid file, the call throws
+// Failure(NOOK_ERROR_BAD_FILE or NOOK_ERROR_FILE_VERSION). It allocates at most twice the file's size.
 ClipSet read_clip_set(std::span<const std::byte> bytes, Memory* memory = default_memory());
 
 }  // namespace nook

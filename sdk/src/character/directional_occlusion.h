@@ -1,13 +1,13 @@
 // Directional occlusion: the share of the light in a key point's hemisphere that comes from behind one
-// sphere. The light is a sum of lobes (core/spherical_gaussian.h). A sphere that covers the share f of the
-// cosine-weighted hemisphere removes f times
+// sphere. The light is a sum of lobes (core/spherical_gaussian.h). If a sphere covers the fraction f of the
+// cosine-weighted hemisphere, it removes the fraction f rho of the irradiance in each channel, with
 //   rho = mean radiance behind the sphere / mean radiance of the hemisphere
-// of the irradiance, for each channel. Under constant light rho is 1, and the result is plain occlusion.
+// Under constant light rho is 1, and the result is plain occlusion.
 //
-// Both means are weighted by a density over directions that is proportional to exp(dot(b, s)). b = h n
-// represents the clamped cosine. b = h n + k d represents the cosine times the sphere's cap, where d points
-// to the part of the sphere above the horizon. The mean of a lobe with the vector a = sharpness * axis then
-// has the closed form
+// Both means are weighted by a density over directions that is proportional to exp(dot(b, s)). With b = h n,
+// the density approximates the clamped cosine. With b = h n + k d, it approximates the clamped cosine
+// restricted to the directions behind the sphere; d points to the part of the sphere above the horizon. The
+// mean of a lobe with the vector a = sharpness * axis then has the closed form
 //   e^(m - |a| - |b|) N(m) / N(|b|),  m = |a + b|,  N(v) = (1 - e^(-2 v)) / v.
 //
 // All functions are templates over a number type F, as in kernel.h.
@@ -45,8 +45,8 @@ inline constexpr float directional_cosine = float(NOOK_COSINE_LOBE_SHARPNESS);
 // sphere's solid angle, and a sphere that fills the hemisphere becomes the hemisphere.
 inline constexpr float caster_concentration = float(NOOK_CASTER_CONCENTRATION);
 inline constexpr float smallest_share = float(NOOK_SMALLEST_SHARE);
-// A sphere dims its receiver by at most this factor times the share that it covers. This limits the effect of
-// a single bright lobe.
+// The upper limit of rho: a sphere that covers the fraction f of the hemisphere removes at most this factor
+// times f of the light. This limits the effect of a single bright lobe.
 inline constexpr float largest_ratio = float(NOOK_LARGEST_RATIO);
 
 // Returns (1 - e^(-2 v)) / v as 1 / (v + v / (e^(2 v) - 1)) with the power series of the exponential. The
@@ -59,7 +59,8 @@ F lobe_norm(F v) {
   return q / fma(v, q, F(1.0f));
 }
 
-// Returns the mean of the lobes under the density of vector b, without the parts that the ground hides.
+// Returns the mean radiance of the lobes under the density with the vector b. The parts of the lobes that the
+// ground hides are left out.
 template <class F>
 Colour<F> mean_radiance(const LightView& light, const Direction<F>& b) {
   const F length_b = sqrt(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)));
@@ -108,8 +109,8 @@ Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) 
           height * inverse_distance};
 }
 
-// Returns k for a caster that covers the share f of the hemisphere. sqrt(height) / f is computed as height /
-// sqrt(height f^2), which needs one estimated root instead of a root and a division.
+// Returns k for a caster that covers the fraction f of the hemisphere. sqrt(height) / f is computed as height
+// / sqrt(height f^2), because this needs only one estimated inverse root instead of a root and a division.
 template <class F>
 F concentration_of(const Sight<F>& sight, F f, float concentration) {
   const F height = max(sight.cosine, F(1e-12f)), f2 = f * f;
@@ -165,10 +166,11 @@ struct JointSight {
   F squared_length() const { return fma(sum.x, sum.x, fma(sum.y, sum.y, sum.z * sum.z)); }
 };
 
-// Returns the share below the horizon of a lobe of sharpness m whose vector rises `height` (-m to m) above
-// it: (1 - erf(x)) / 2 with x = height / sqrt(5.09 + 2 m^2 / (m + 4)). The formula is exact for small m,
-// tends to the exact share for large m, and has an error of at most 0.016 in between. erf uses the formula
-// 7.1.27 of Abramowitz and Stegun, with an error of at most 5e-4.
+// Returns the fraction of a lobe's light that comes from below the horizon. m is the sharpness of the lobe,
+// and `height`, from -m to m, is the height of the lobe's vector above the horizon. The fraction is (1 -
+// erf(x)) / 2 with x = height / sqrt(5.09 + 2 m^2 / (m + 4)). The formula is exact for small m, tends to the
+// exact share for large m, and has an error of at most 0.016 in between. erf uses the formula 7.1.27 of
+// Abramowitz and Stegun, with an error of at most 5e-4.
 template <class F>
 F share_below(F height, F m) {
   const F x = height * rsqrt(fma(m, F(2.0f) * m / (m + F(4.0f)), F(float(NOOK_BELOW_WIDTH))));
@@ -181,8 +183,8 @@ F share_below(F height, F m) {
   return select(less(x, F(0.0f)), F(1.0f) - tail, tail);
 }
 
-// Returns rho of the ground, which hides the half-space below its plane, under the density b = h n. The light
-// is taken as it would be without the ground, so LightLobe::above has no effect here.
+// Returns rho of the ground, which hides the half-space below its plane, under the density b = h n. This
+// function uses the light as it would be without the ground, so it does not read LightLobe::above.
 template <class F>
 Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Direction<F>& up) {
   const F h(directional_cosine), zero(0.0f);
@@ -208,9 +210,9 @@ Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Dire
                                inverse(all.b, light.darkest.z)});
 }
 
-// The light of self-shadow: bands 0 to 2 of the lobes (core/light_bands.h). The fitted spheres darken from
-// all sides, so their shadow has little directional detail. Each key point first sums the weighted densities
-// of its spheres, and then combines the sum with the light once.
+// Self-shadow uses only bands 0 to 2 of the lobes (core/light_bands.h). The fitted spheres darken a key point
+// from all sides, so their shadow has little directional detail. Each key point first sums the weighted
+// densities of its spheres, and then combines the sum with the light once.
 //
 // All functions are templates over a number type F, as in kernel.h.
 
@@ -220,7 +222,8 @@ Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Dire
 inline constexpr float self_strength = float(NOOK_SELF_STRENGTH);
 inline constexpr float self_concentration = float(NOOK_SELF_CONCENTRATION);
 
-// Returns the density for a sphere of the body itself that removes y^gamma = `term` of the light.
+// Returns the density for a sphere of the body itself. The sphere removes the fraction y^gamma = `term` of
+// the light.
 template <class F>
 void gather(GatheredBands<F>& gathered, const Direction<F>& n, const Sight<F>& sight, F y, F term) {
   const F k = concentration_of(sight, max(y, F(smallest_share)), self_concentration), h(directional_cosine);
@@ -228,7 +231,8 @@ void gather(GatheredBands<F>& gathered, const Direction<F>& n, const Sight<F>& s
   gathered.add(Direction<F>{fma(d.x, k, n.x * h), fma(d.y, k, n.y * h), fma(d.z, k, n.z * h)}, term);
 }
 
-// Sums the terms, each multiplied by the light that it removes.
+// Sums the terms of the spheres. Each term is multiplied by the relative radiance of the light that the
+// sphere removes.
 template <class F>
 Colour<F> coloured_sum(const GatheredBands<F>& gathered, const LightBands& bands, const Direction<F>& n) {
   GatheredBands<F> open = GatheredBands<F>::none();

@@ -1,6 +1,6 @@
-// Poses that stay on the GPU. The CPU only knows where the body is and how large its bones are. Culling, the
-// ground, neighbours and levels of detail need no more than that. All code that reads bones on the CPU must
-// refuse such an instance, because the bones on the CPU are from an earlier pose.
+// Poses that stay on the GPU. The CPU only knows the bounding sphere of the body and the scale of its bones.
+// This is enough for culling, the ground, neighbours and levels of detail. All code that reads bones on the
+// CPU must refuse such an instance, because the bones on the CPU are from an earlier pose.
 #pragma once
 
 #include "sdk/src/character/scene.h"
@@ -17,8 +17,8 @@ struct GpuPose {
 // reported that the instance does not darken the world.
 inline constexpr std::uint32_t topic_no_world_casters = 8;
 
-// From now on, the pose of the instance is on the GPU. If the instance plays a clip, this ends it, like
-// set_pose.
+// From now on, the pose of the instance is on the GPU. If the instance plays a clip, the call ends the clip,
+// as set_pose does.
 void take_gpu_pose(Scene& scene, Instance& instance, const GpuPose& pose) noexcept;
 
 // From now on, the pose of the instance is on the CPU. Call it when the bones are set.
@@ -26,7 +26,7 @@ void leave_gpu_pose(Scene& scene, Instance& instance) noexcept;
 
 // Throws Failure(NOOK_ERROR_UNSUPPORTED) if the pose of the instance is on the GPU.
 void need_cpu_pose(const Instance& instance);
-// Throws the same Failure if the pose of any instance of the scene is on the GPU.
+// Throws Failure(NOOK_ERROR_UNSUPPORTED) if the pose of any instance of the scene is on the GPU.
 void need_cpu_poses(const Scene& scene);
 
 }  // namespace nook

@@ -1,5 +1,5 @@
-// Adapts a model to a host's vertices: reorders a model to the order of the host's vertices, or resamples it
-// for another mesh of the same body. vertex_match.h finds the matching vertices.
+// Adapts a model to a host's mesh. Reorders the model to the order of the host's vertices, or resamples the
+// model for another mesh of the same body. vertex_match.h finds the matching vertices.
 #pragma once
 
 #include <cstddef>
@@ -55,8 +55,8 @@ struct Candidate {
   std::uint32_t file_vertex = 0;  // the first file vertex of the welded vertex that is in this space
   std::uint32_t welded = 0;
   std::uint16_t space = 0;
-  const BoneWeights* weights = nullptr;  // null: not stored, because all nearby vertices have the same
-                                         // weights
+  const BoneWeights* weights =
+      nullptr;  // null: the model stores no weights, because all nearby vertices have the same weights
 };
 using Candidates = Vector<Candidate>;
 
@@ -72,7 +72,7 @@ float diagonal_of(const CharacterModel& model, const HostVertices& host);
 float tolerance_of(const CharacterModel& model, const HostVertices& host);
 
 // Sets the primitives of `out` and their spaces. Each primitive is a run of vertices of the same space.
-// Vertex i of `out` belongs to the mesh of file_vertices[i] of `model`.
+// Vertex i of `out` belongs to the same mesh as the vertex file_vertices[i] of `model`.
 void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                     CharacterModel& out);
 
@@ -91,14 +91,14 @@ struct FarVertex {
                              // unit
 };
 
-// Returns the host's vertex that is farthest from the model's. The model must have a rest surface and bind
-// data, and the host at least one vertex.
+// Returns the host vertex that is farthest from all model vertices. The model must have a rest surface and
+// bind data, and the host at least one vertex.
 FarVertex farthest_vertex(const CharacterModel& model, const HostVertices& host, Memory* memory);
 
 // Returns a model with one welded vertex for each vertex of the host. A host vertex takes the mean weights of
 // the three nearest baked vertices that face the same way. This gives the mean of their AO in every pose,
-// because the linear layer is linear in its weights. The largest CharacterModel::max_influences weights are
-// kept, and scaled so that their sum stays the same.
+// because the linear layer is linear in its weights. Only the largest CharacterModel::max_influences weights
+// are kept. They are scaled so that the sum of the weights stays the same.
 CharacterModel resampled(const CharacterModel& model, const HostVertices& host, Memory* memory);
 
 }  // namespace nook

@@ -43,21 +43,21 @@ struct InstanceLight {
 // not a valid lobe.
 void check_light_lobes(std::span<const SphericalGaussian> lobes);
 
-// Sets the light of an instance, or removes it if `lobes` is empty. Throws Failure for a bad id or lobe, and
-// std::bad_alloc if memory runs out; then nothing changes. Allocates memory only for the first light of an
-// instance.
+// Sets the light of an instance, or removes it if `lobes` is empty. Throws Failure for an invalid id or lobe,
+// and std::bad_alloc if memory runs out. After an exception, the scene is unchanged. Allocates memory only
+// for the first light of an instance.
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes);
 
-// Returns the light that an instance has after a change of its model. It has the same lobes, but is not
-// evaluated yet. Throws std::bad_alloc.
+// Returns the light of an instance for another model. The new light has the same lobes, but is not evaluated
+// yet. Throws std::bad_alloc.
 InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, Memory* memory);
 
-// Runs after resolve_casters: computes the share of each lobe that the ground does not hide, and the bands of
-// the remaining light. Does nothing without a light.
+// Call it after resolve_casters. Computes the fraction of each lobe that the ground does not hide, and the
+// bands of the remaining light. Does nothing without a light.
 void prepare_light(const Scene& scene, Instance& instance) noexcept;
 
-// Runs after evaluate_shadows: computes the colours of shadow and added occlusion. Does nothing without a
-// light.
+// Call it after evaluate_shadows. Computes the shadow and the added occlusion for each colour channel. Does
+// nothing without a light.
 void evaluate_directional(const Scene& scene, Instance& instance) noexcept;
 
 }  // namespace nook

@@ -26,8 +26,8 @@ inline bool may_group(const Scene& scene) {
 }
 
 // Returns the spheres of a caster for a receiver. Uses the coarsest tier of groups whose error is small
-// enough at this distance, or else the spheres at the receiver's level. For a caster that must not be
-// grouped, group_spheres has not made any groups.
+// enough at this distance, or else the spheres at the receiver's level. If a caster must not be grouped,
+// group_spheres has made no groups for it.
 inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, const Instance& caster) {
   const InstanceResult& result = caster.result;
   if (result.grouped_revision == caster.input.pose_revision) {

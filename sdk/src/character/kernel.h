@@ -1,7 +1,7 @@
 // The effect of one sphere on one key point. The fitted model uses a solid-angle term and a visibility term.
 // Casters that were not part of the fit use the physical form factor. The formulas are templates over a
 // number type F: float, double, or a SIMD vector with the same operators and the functions of
-// core/simd_scalar.h. The scalar reference and all SIMD paths therefore share them.
+// core/simd_scalar.h. Therefore the scalar reference and all SIMD paths use the same source code.
 //
 // Take a sphere of centre o and radius r, a key point c with unit normal u, and d = o - c. Two numbers
 // describe the sphere:
@@ -59,9 +59,10 @@ F shadow_nook(F xi, F delta2) {
   return (xi + sqrt_positive(fma(xi, xi, F(1.0f)))) * rsqrt_cubed(delta2 + F(nook_kernel_core), 0.5f);
 }
 
-// The same y from values that are not divided by r: r^2 / 2 (h + sqrt(h^2 + r^2)) / d2_and_core^(3/2), where
-// h = r xi is the height and d2_and_core = r^2 (delta2 + core). `softness` is r^2. `mass` is 3/4 r^2, because
-// the estimate of the cube is then scaled by 2/3, and its constant factor becomes 1.
+// Computes the same y as above, but from values that are not divided by r. y = r^2 / 2 (h + sqrt(h^2 + r^2))
+// / d2_and_core^(3/2), where h = r xi is the height and d2_and_core = r^2 (delta2 + core). `softness` is r^2.
+// `mass` is 3/4 r^2, because the estimate of the cube is scaled by 2/3. In this way, the constant factor of
+// the estimate is 1.
 template <class F>
 F shadow_nook_of_mass(F h, F d2_and_core, F softness, F mass) {
   return mass * ((h + sqrt_positive(fma(h, h, softness))) * rsqrt_cubed(d2_and_core, 2.0f / 3));
@@ -85,9 +86,10 @@ F shadow_term(KernelForm form, F xi, F delta2) {
   return shadow_nook(xi, delta2);
 }
 
-// Returns the shadow of a key point whose spheres have the norm n: n / (1 + c n). The norm adds up spheres as
-// if no sphere stood behind another. But spheres that are close together hide each other, so the shadow grows
-// more slowly than the norm. c is fitted for each key point; c = 0 is the paper's form.
+// Returns n / (1 + c n), the shadow of a key point, where n is the norm over its spheres. The norm counts
+// each sphere fully, as if no sphere were hidden behind another. But spheres that are close together hide
+// each other, so the shadow grows more slowly than the norm. c is fitted for each key point; c = 0 is the
+// paper's form.
 template <class F>
 F saturated(F norm, F c) {
   return norm / fma(c, norm, F(1.0f));
@@ -120,13 +122,13 @@ F form_factor_exact(F xi, F delta2) {
   return fma(max(one - f, F(0.0f)), depth, f);
 }
 
-// An approximation of the same share without inverse trigonometric functions, for the many spheres of a
-// caster. With a = 1 / h, b = sqrt(1 - a^2) and t = (1 + xi) / 2 clamped to [0, 1], f = a^3 max(xi, 1) (t + t
-// (1 - t) P(b, t)). The formula is exact if the horizon does not clip the sphere. P is even in xi, because
-// f(xi) - f(-xi) = xi a^3 exactly. P is 0 on the surface (b = 0, f = t). At infinity (b = 1) P is -1 - 0.6044
-// t (1 - t), which gives 2 / (3 pi) on the horizon and, within 0.004, the integral G(xi) = 2/pi int_-xi^1 (xi
-// + x) sqrt(1 - x^2) dx. Between these two limits, two further coefficients are fitted. The maximum error
-// against form_factor_exact is 0.009, or 0.005 for h >= 1.05; the rms error is 0.0022.
+// An approximation of form_factor_exact without inverse trigonometric functions. It is used for the many
+// spheres of a caster. With a = 1 / h, b = sqrt(1 - a^2) and t = (1 + xi) / 2 clamped to [0, 1], f = a^3
+// max(xi, 1) (t + t (1 - t) P(b, t)). The formula is exact if the horizon does not clip the sphere. P is even
+// in xi, because f(xi) - f(-xi) = xi a^3 exactly. P is 0 on the surface (b = 0, f = t). At infinity (b = 1) P
+// is -1 - 0.6044 t (1 - t), which gives 2 / (3 pi) on the horizon and, within 0.004, the integral G(xi) =
+// 2/pi int_-xi^1 (xi + x) sqrt(1 - x^2) dx. Between these two limits, two further coefficients are fitted.
+// The maximum error against form_factor_exact is 0.009, or 0.005 for h >= 1.05; the rms error is 0.0022.
 template <class F>
 F form_factor_fast(F xi, F delta2) {
   const F one(1.0f);
@@ -142,12 +144,13 @@ F form_factor_fast(F xi, F delta2) {
   return fma(max(one - outside, F(0.0f)), max(one - delta2, F(0.0f)), outside);
 }
 
-// Returns the optical depth of a caster whose spheres have the sum d of weight * form factor. Spheres at
-// random places would leave the share exp(-d) open. But the spheres of a body lie side by side, so they leave
-// less open where they cover much. For example, a single sphere of the share f leaves 1 - f = exp(-(f + f^2 /
-// 2 + ...)). For vertices of bodies 0.3 to 1 m apart, the ray-traced depth is d + 0.2 d^2 to d + 0.45 d^2 up
-// to d = 0.6, where about half is open. For larger d, the ray-traced depth is smaller than this function's,
-// so points between two bodies that touch become too dark.
+// Returns the optical depth of a caster. d is the sum of weight * form factor over the caster's spheres.
+// Spheres at random places would leave the fraction exp(-d) of the hemisphere open. But the spheres of a body
+// lie side by side and hide each other less, so together they leave less open. For example, a single sphere
+// that covers the fraction f leaves 1 - f = exp(-(f + f^2 / 2 + ...)). For vertices of bodies 0.3 to 1 m
+// apart, the ray-traced depth is d + 0.2 d^2 to d + 0.45 d^2 up to d = 0.6, where about half is open. For
+// larger d, the ray-traced depth is smaller than this function's, so points between two bodies that touch
+// become too dark.
 template <class F>
 F solid_depth(F d) {
   return fma(F(float(NOOK_SOLID_DEPTH)) * d, d, d);

@@ -17,9 +17,10 @@ namespace nook {
 // consecutive in the file, their AO fits into 4 KiB.
 inline constexpr std::uint32_t linear_window_vertices = 1024;
 
-// Returns all vertices in the order of their slots. The vertices of a block come from one window of the
-// file's order. A block starts with the first vertex that is left in the window, and then repeatedly takes
-// the vertex that adds the fewest key points to the block. The model's influences must be valid.
+// Returns all vertices in the order of their slots. All vertices of a block come from the same window of the
+// file's order. A block starts with the first vertex of the window that is not in a block yet. Then the
+// vertex that adds the fewest key points to the block is added to it, until the block is full. The model's
+// influences must be valid.
 Vector<std::uint32_t> linear_layer_order(const CharacterModel& model, std::uint32_t block_vertices,
                                          Memory* memory);
 

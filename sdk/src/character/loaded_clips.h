@@ -12,7 +12,7 @@
 
 namespace nook {
 
-// A time of a clip, as a mix of two frames of the set: (1 - share) * first + share * second.
+// A point in time of a clip, as a mix of two frames of the set: (1 - share) * first + share * second.
 struct FrameMix {
   std::uint32_t first = 0, second = 0;
   float share = 0;  // in [0, 1)
@@ -31,14 +31,14 @@ struct FrameBound {
 };
 
 struct LoadedClips : RefCounted {
-  // The set must have passed check_clip_set. Throws Failure(INVALID_ARGUMENT) if it belongs to another
-  // character than the model.
+  // The set must have passed check_clip_set. Throws Failure(INVALID_ARGUMENT) if the set was baked for
+  // another character.
   LoadedClips(ClipSet loaded, Ref<const LoadedModel> of, Memory* memory);
 
   const Ref<const LoadedModel> model;
 
   // The modes of AO in the slot order of the model's linear layer, in blocks of block_slots slots. A block
-  // holds all its modes one after another, so that decoding it reads one run of memory.
+  // stores all its modes one after another, so decoding a block reads one contiguous range of memory.
   static constexpr std::uint32_t block_slots = LoadedModel::slot_chunk;
   const AlignedArray<std::int8_t> block_mode;
 
@@ -58,8 +58,8 @@ struct LoadedClips : RefCounted {
 // Mixes the weights of AO; weights has set.ao.modes entries.
 void mix_ao_weights(const ClipSet& set, const FrameMix& mix, float* weights) noexcept;
 
-// Decodes the AO of the slots [first_slot, first_slot + count), clamped to [0, 1]. All of them must lie in
-// one block.
+// Decodes the AO of the slots [first_slot, first_slot + count), clamped to [0, 1]. All these slots must lie
+// in one block.
 void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t first_slot, std::uint32_t count,
                float* ao) noexcept;
 
@@ -86,7 +86,7 @@ struct ClipTexels {
 ClipTexels mode_texels(const LoadedClips& clips);
 ClipTexels weight_texels(const LoadedClips& clips);
 
-// These fill the texture's bytes, with zeros after the last texel.
+// Both functions fill the bytes of the texture. The bytes after the last texel become 0.
 void write_mode_texels(const LoadedClips& clips, void* texels) noexcept;
 void write_weight_texels(const LoadedClips& clips, void* texels) noexcept;
 

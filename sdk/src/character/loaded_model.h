@@ -1,4 +1,5 @@
-// A model as the runtime uses it: shared, immutable, and with values that are derived once from its data.
+// A model in the form that the runtime uses. It is immutable, can be shared, and contains values that are
+// computed once from the model's data.
 #pragma once
 
 #include <array>
@@ -28,7 +29,7 @@ struct LoadedModel : RefCounted {
   // The model must have passed check_model.
   LoadedModel(CharacterModel loaded, Memory* memory);
 
-  const CharacterModel model;  // with its key points in groups; see with_near_key_points_together
+  const CharacterModel model;  // its key points are sorted by with_near_key_points_together
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
@@ -51,22 +52,22 @@ struct LoadedModel : RefCounted {
       open_without_bias;  // 1 for each slot, in place of LinearView::open_bias if self-shadow is switched off
 
   // For each bone, a sphere in rest space that contains all key points that the bone moves, and all proxy
-  // spheres of the bone. The radius is < 0 if there are none. When each sphere is transformed by its bone,
-  // the spheres together bound the posed character: a blended key point lies between the points to which its
-  // bones move it.
+  // spheres of the bone. The radius is < 0 if there are none. If you transform each sphere by its bone, the
+  // spheres together contain the posed character. The reason is that a blended key point lies between the
+  // points to which its single bones would move it.
   struct BoneBound {
     Vec3 centre;
     float radius = -1;
   };
   AlignedArray<BoneBound> bone_bounds;
-  float max_alpha_sum = 0;    // maximum over the vertices of the sum of alpha: the largest change of AO per
-                              // unit of shadow
+  float max_alpha_sum = 0;  // the maximum over the vertices of the sum of alpha. An error of 1 in all shadows
+                            // changes AO by at most this value
   float caster_strength = 0;  // maximum over the levels of the sum of caster_weight * radius^2, square metres
 };
 
 // Renumbers the key points of a model so that each group of key_point_group key points lies close together. A
-// whole group can then share one decision about a far part of the body. The model's results stay the same.
-// The model must have passed check_model.
+// whole group can then use the same node for a far part of the body. The model's results stay the same. The
+// model must have passed check_model.
 CharacterModel with_near_key_points_together(CharacterModel model, Memory* memory);
 
 }  // namespace nook

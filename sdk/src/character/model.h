@@ -24,19 +24,20 @@ struct ProxySphere {
   Vec3 centre;
   float radius = 0;
   std::uint16_t bone = 0;
-  // Factor of the sphere's form factor when the sphere darkens another instance, >= 0. The bake fits it
-  // against ray tracing, so that overlapping spheres of one character do not darken twice.
+  // The form factor of the sphere is multiplied by this weight, >= 0, when the sphere darkens another
+  // instance. The bake fits the weight against ray tracing, so that overlapping spheres of one character do
+  // not darken twice.
   float caster_weight = 1;
 };
 
 // A capsule that is rigid to one bone. Together, the capsules of a body represent its volume when the body
 // darkens the world.
 struct WorldCaster {
-  Capsule capsule;  // with the radii that are used to block a light
+  Capsule capsule;  // with the radii for light, without ao_scale
   std::uint16_t bone = 0;
   // AO uses the capsule's radii times this scale. For AO, the open shares of several casters are multiplied
-  // together, as if the casters covered the hemisphere independently. Overlapping casters must therefore be
-  // thinner.
+  // together, as if the casters covered the hemisphere independently. Casters that overlap must therefore be
+  // thinner for AO than for light.
   float ao_scale = 1;
 };
 
@@ -77,12 +78,12 @@ struct CharacterLevel {
   Vector<ProxySphere> spheres;
   Vector<std::uint16_t> evaluated;  // key points, ascending
   // For each key point k, shadow[k] = max(0, scale[k] * shadow[evaluated[source[k]]] + offset[k]). The
-  // occlusion by other casters is copied from the evaluated key point without change.
+  // occlusion by other casters at k is the occlusion at the evaluated key point, without scale and offset.
   Vector<std::uint16_t> source;
   Vector<float> scale;
   Vector<float> offset;
-  // The RMS difference from full detail, in the AO of the instance alone, over all vertices and the held-out
-  // poses.
+  // The RMS difference in AO between this level and full detail, over all vertices and all poses that the fit
+  // did not use. Other instances are not included.
   float error_rms = 0;
 };
 
@@ -157,8 +158,8 @@ inline float max_saturation_of(const CharacterModel& model) {
   return max;
 }
 
-// Upper bound for alpha, bias and caster weight. Fitted values come near this bound only if the spheres are
-// far too small.
+// Upper bound for alpha, bias and caster weight. A fit comes near this bound only if the spheres are far too
+// small.
 constexpr float max_coefficient = 1e4f;
 
 // Above this saturation, a key point acts like a switch: half of its shadow's range lies below a norm of

@@ -18,7 +18,7 @@ struct CharacterBits {
   static constexpr int sphere_radius = 16;
   static constexpr int caster_weight = 8;
   static constexpr int key_position = 16;
-  // Each of two octahedral coordinates; the error is within 0.1 degree.
+  // The bits of each of the two octahedral coordinates. The error of the normal is at most 0.1 degree.
   static constexpr int key_normal = 11;
   static constexpr int surface_offset = 12;  // surface position minus position: steps of 0.1 mm in 0.4 m
   static constexpr int surface_normal = 10;
@@ -38,19 +38,20 @@ struct CharacterBits {
   static constexpr int world_caster_scale = 8;
   static constexpr int rest_position = 16;
   static constexpr int rest_normal = 7;  // the error is within 2 degrees
-  static constexpr int float_bits = 6;   // the number of low bits of a float that changed, 0 to 32
+  static constexpr int float_bits = 6;   // stores how many low bits of a float changed, 0 to 32
   static constexpr int close_bones = 4;
   static constexpr int close_weight = 16;
 };
 
-// A vertex may share key points with one of this many vertices that precede it.
+// A vertex may reuse the key points of an earlier vertex. It can refer to this many vertices before it.
 inline constexpr std::size_t max_references = std::size_t{1} << CharacterBits::reference;
 
 // A bone's name shares at most this many leading bytes with the previous name. Without this limit, the names
 // in a small malicious file could fill the memory.
 inline constexpr std::uint32_t max_shared_name = 64;
 
-// Codes are evenly spaced from `low` to `high`, and represent both ends exactly.
+// A range of values that are stored as codes. Codes are evenly spaced from `low` to `high`, and represent
+// `low` and `high` exactly.
 struct Range {
   float low = 0, high = 0;
 

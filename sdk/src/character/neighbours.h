@@ -1,6 +1,6 @@
-// Finds the k nearest points of a set. The points are stored in a balanced tree, which adapts to any
-// distribution of points. A query therefore costs the same for coincident points as for evenly spaced points.
-// Building the tree costs O(n log n), and a query O(log n + k).
+// Finds the k nearest points of a set. The points are stored in a balanced tree. Its depth does not depend on
+// how the points are distributed. A query therefore costs the same for coincident points as for evenly spaced
+// points. Building the tree costs O(n log n), and a query O(log n + k).
 #pragma once
 
 #include <cstdint>
@@ -45,9 +45,9 @@ void clear_tree(NeighbourTree& tree) noexcept;
 void add_to_tree(NeighbourTree& tree, std::uint32_t slot, Vec3 place) noexcept;
 void build_tree(NeighbourTree& tree) noexcept;
 
-// Finds the k <= max_nearest points that are nearest to `place` and within max_distance, excluding `slot`
-// itself. Returns how many points it found. Points are sorted by distance; at equal distances, the lower slot
-// comes first.
+// Finds the k points that are nearest to `place`, within max_distance, and without the point `slot`. k must
+// be at most max_nearest. Returns how many points it found. Points are sorted by distance; at equal
+// distances, the lower slot comes first.
 std::uint32_t find_nearest(const NeighbourTree& tree, std::uint32_t slot, Vec3 place, std::uint32_t k,
                            float max_distance, std::span<Neighbour, max_nearest> found) noexcept;
 

@@ -23,8 +23,8 @@ void copy_occluded_directions(const CharacterModel& model, std::int8_t* out,
 // Throws Failure(NOOK_ERROR_UNSUPPORTED) unless the model has occluded directions and rest normals.
 void check_bent_normals(const CharacterModel& model);
 
-// For each file vertex, writes x, y, z of the bent normal in world space, and the AO. The AO is from the last
-// update, whereas the normals belong to the current pose. The model must pass check_bent_normals.
+// For each file vertex, writes x, y, z of the bent normal in world space, and the AO. The AO comes from the
+// last update, but the normals come from the current pose. The model must pass check_bent_normals.
 void read_bent_normals(const Scene& scene, const Instance& instance, std::int8_t* out,
                        std::size_t stride_bytes) noexcept;
 

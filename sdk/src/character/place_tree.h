@@ -22,7 +22,7 @@ class PlaceTree {
   void find_within(Vec3 at, float reach, Vector<std::uint32_t>& out) const;
 
  private:
-  struct Run {  // a range of order_; its middle point splits it along an axis
+  struct Run {  // a range of order_; the middle point of the range splits it along an axis
     std::uint32_t first = 0, end = 0;
     float distance = 0;  // lower bound of the distance to any point of the run
     std::uint32_t middle() const { return first + (end - first) / 2; }

@@ -15,7 +15,7 @@
 
 namespace nook {
 
-// The answers of nook_pose_check_info.
+// The results of the check, for nook_pose_check_info.
 struct PoseFinding {
   nook_pose_fault fault = NOOK_POSE_FAULT_NONE;
   double max_error = 0, rms_error = 0;  // in units of the bounding radius times the scale of the pose
@@ -29,8 +29,8 @@ struct PoseFinding {
 // appended to the text, if it has room for them. Returns true if this was the first fault.
 bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ...) NOOK_PRINTF(3, 4);
 
-// One way to interpret the host's transforms. A host's mistake means that another reading than the given one
-// is right.
+// One way to interpret the host's transforms. If the host made a mistake, another reading than the host's own
+// fits the vertices.
 struct Reading {
   PoseSource source;
   Vector<std::int32_t> map;     // transform of each bone, replaces the source's map; empty: use the source's
@@ -47,13 +47,14 @@ struct Reading {
 
 Affine read_transform(const Reading& reading, std::uint32_t index);
 
-// other_readings returns the readings that differ from the host's own by one mistake, and
-// readings_of_two_mistakes those that differ by two. Both put the most likely reading first.
+// other_readings returns all readings that differ from the host's own reading by one mistake.
+// readings_of_two_mistakes returns all readings that differ by two mistakes. Both put the most likely reading
+// first.
 Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& given, Memory* memory);
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory);
 
-// Adds the finding that `reading` is the right way to interpret the host's transforms.
+// Adds to the finding that `reading` is the correct way to interpret the host's transforms.
 void describe(const CharacterModel& model, const PoseSource& given, const Reading& reading,
               PoseFinding& finding);
 
@@ -75,8 +76,8 @@ struct PosedPoints {
   Affine pose_place, vertex_place;  // the identity if the host gave none
 };
 
-// Tries to explain the difference by a wrong place, or by a rotation, a mirroring or another unit of the
-// whole pose. Returns false if none of these fits.
+// Tries to explain the difference by a wrong place, or by a wrong rotation, mirroring or unit of length of
+// the whole pose. Returns false if none of these explains it.
 bool explain_by_place(const PosedPoints& points, PoseFinding& finding);
 
 // A vertex of BindData::vertices, and its world position after the host's skinning.

@@ -41,9 +41,9 @@ std::uint64_t hash_of_bone_names(const Names& names) {
 // `out` must have pose_record_size bytes.
 void write_pose_record(std::uint64_t names_hash, std::span<const Mat3x4> bones, std::span<std::byte> out);
 
-// Reads the poses of a file that belong to a body with these bones. The file may also hold poses of other
-// bodies, which are only counted in of_others. Throws Failure(NOOK_ERROR_BAD_FILE) if the file has no
-// records, if a record is cut off or has another version, or if a matrix is not finite or far too large.
+// Reads the poses of a file that belong to a body with these bones. The file may also contain poses of other
+// bodies. The function only counts these, in of_others. Throws Failure(NOOK_ERROR_BAD_FILE) if the file has
+// no records, if a record is cut off or has another version, or if a matrix is not finite or far too large.
 struct RecordedPoses {
   std::vector<std::vector<Mat3x4>> poses;
   std::size_t of_others = 0;

@@ -21,7 +21,7 @@ struct PoseSource {
   nook_transform_layout layout = NOOK_TRANSFORM_ROWS_3X4;
   const float* transforms = nullptr;
   std::size_t stride = 0;                           // bytes, never 0 after check_pose_source
-  std::uint32_t transform_count = 0;                // after check_pose_source, without surplus transforms
+  std::uint32_t transform_count = 0;                // check_pose_source subtracts surplus transforms
   std::uint32_t given_count = 0;                    // set by check_pose_source: the host's original
                                                     // transform_count
   std::uint32_t file_skin = 0;                      // for NOOK_POSE_SKINNING: index of the skin in the file
@@ -71,7 +71,7 @@ void for_each_transform(const CharacterModel& model, const PoseSource& source, B
     }
   } else if (source.kind == NOOK_POSE_SKINNING) {
     const SkinBind& skin = model.bind.skins[source.skin];
-    // Bones of a skin are distinct, because its joints are.
+    // Different joints of a skin belong to different bones.
     if (!source.is_partial && skin.joint_count < model.bone_count()) fail_without_joint(model, skin);
     for (std::uint32_t j = 0; j < skin.joint_count; ++j)
       body(std::size_t(model.bind.bone_of_joint[skin.first_joint + j]), j);
@@ -85,11 +85,12 @@ void for_each_transform(const CharacterModel& model, const PoseSource& source, B
 Affine bone_matrix(const CharacterModel& model, const PoseSource& source, std::size_t bone,
                    const Affine& transform);
 
-// Returns the joint's origin in rest space. The projection of an uneven matrix does not move this point.
+// Returns the joint's origin in rest space. When an uneven matrix is projected, this point does not move.
 std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone);
 
-// Returns the nearest similarity: a rotation, possibly mirrored, with one scale above 0. Both matrices map
-// the point `fixed` to the same point. A matrix that already is a similarity to 1e-4 is returned unchanged.
+// Returns the similarity that is nearest to the matrix. It consists of a rotation, possibly a mirroring, and
+// one scale above 0. It maps the point `fixed` to the same point as `matrix` does. A matrix that already is a
+// similarity to 1e-4 is returned unchanged.
 Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
 
 // Remarks for the log about a pose that was accepted. A bone is uneven if its matrix is sheared, scaled
@@ -103,8 +104,8 @@ struct PoseNotes {
   bool is_place_uneven = false;
   std::uint32_t transforms_given = 0, transforms_used = 0;  // they differ if the host gave surplus transforms
 
-  // Topics are bits in a mask, so that each topic is reported only once. If the whole pose is zero, as in a
-  // buffer that was not filled, only that is reported.
+  // Topics are bits in a mask, so that each topic is logged only once. If all matrices of the pose are zero,
+  // as in a buffer that was not filled, only topic_zero is logged.
   enum Topic : std::uint32_t { topic_uneven = 1, topic_zero = 2, topic_surplus = 4 };
   std::uint32_t topics() const {
     const bool is_all_zero = bones > 0 && zero == bones;
@@ -116,10 +117,11 @@ struct PoseNotes {
 };
 
 void note_uneven(PoseNotes& notes, std::size_t bone, const BoneAxes<double>& axes);
-// Returns the notes of a pose whose bone matrices are even, multiplied by a `place` that may be uneven.
+// Returns the notes of a pose whose bone matrices are all even before they are multiplied by `place`. `place`
+// may be uneven.
 PoseNotes notes_of_place(const CharacterModel& model, const Mat3x4& place);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT), for a bone with uneven axes in a strict scene.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT). Call it for a bone with uneven axes in a strict scene.
 [[noreturn]] void fail_uneven(const CharacterModel& model, std::size_t bone, const BoneAxes<double>& axes);
 
 // A bit for each bone of an instance, set if its matrix was projected.

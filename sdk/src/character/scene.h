@@ -54,7 +54,7 @@ struct PointLanes {
   float *surface_nx = nullptr, *surface_ny = nullptr, *surface_nz = nullptr;
   float* norm_sum = nullptr;       // sum over spheres of (solid angle * visibility)^gamma
   float* shadow = nullptr;         // the model's shadow: norm_sum^(1 / gamma), saturated
-  float* optical_depth = nullptr;  // composed form: sum over casters of solid_depth
+  float* optical_depth = nullptr;  // composed form: sum of solid_depth over the casters
   float* open = nullptr;           // composed form: product over ground and occluders of 1 - form factor
   float* added = nullptr;          // composed form: 1 - open * exp(-optical_depth); 0 is unshadowed
   PointCodes shadow_codes;         // `shadow`, encoded for the linear layer
@@ -149,11 +149,11 @@ struct InstanceInput {
 
 // The ground is evaluated as a huge sphere. This is its radius, divided by the bounding radius of the body.
 // Seen from one bounding radius above the ground, the sphere's edge lies 0.0135 rad below the horizon. With
-// this radius, float precision places the sphere's surface to within 1e-3 bounding radii.
+// this radius, float precision is good enough: the surface of the sphere is exact to 1e-3 bounding radii.
 inline constexpr float default_ground_radii = 11'000;
 
 // What resolve_casters decided for an update. If an instance is not due, its lists come from an earlier
-// update. Do not read them then, because they may refer to slots that are free by now.
+// update. Do not read these lists, because they may contain slots that are now free.
 struct InstancePlan {
   explicit InstancePlan(Memory* memory) : casters(memory), occluders(memory) {}
 
@@ -178,8 +178,7 @@ struct InstanceResult {
                                            // casters may be grouped
   std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
-  bool has_added = false;                  // true if the last evaluation computed a PointLanes::added that is
-                                           // not all zero
+  bool has_added = false;  // true if PointLanes::added of the last evaluation is not zero everywhere
 };
 
 // The world casters of an instance in its pose, see pose_world_casters.
@@ -296,8 +295,8 @@ inline constexpr std::uint32_t max_slots = (1u << id_slot_bits) - 1;
 
 // ---- Steps of an update, in order; none allocates or throws ----
 
-// Tells whether the scene's evaluator, which is the CPU or a GPU, has results for the instance in a slot.
-// HasResult only keeps a reference to `function`, so the function object must outlive it.
+// Returns whether the evaluator has results for the instance in a slot. The evaluator is the CPU path or a
+// GPU path. HasResult only keeps a reference to `function`, so the function object must outlive it.
 class HasResult {
  public:
   template <class Function>
@@ -312,9 +311,10 @@ class HasResult {
   bool (*ask_)(const void* of, std::uint32_t slot);
 };
 
-// First chooses levels of detail, and which instances are due. An instance without results is always due.
-// Then chooses casters, occluders and the ground sphere for each instance that is due. Casters are the linked
-// instances and the k nearest ones, except for casters below the cut-off. This step needs only the poses.
+// First chooses the levels of detail and the instances that are due. An instance without results is always
+// due. Then chooses casters, occluders and the ground sphere for each instance that is due. The casters are
+// the linked instances and the k nearest instances, without the casters that are below the cut-off. This step
+// needs only the poses.
 void resolve_casters(Scene& scene, HasResult has_result) noexcept;
 // Computes the world-space spheres of an instance at the levels that it and its receivers may need.
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
@@ -333,7 +333,7 @@ void update(Scene& scene) noexcept;
 // Blends the key points to vertices, and writes the AO of the last update in file order. `out` holds one
 // value for each file vertex of the model, stride_bytes apart.
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept;
-// The same, but writes values of `format`.
+// Like read_ao, but writes the values in the format `format`.
 void read_ao_as(const Scene& scene, const Instance& instance, nook_format format, void* out,
                 std::size_t stride_bytes) noexcept;
 // Like read_ao, but writes three floats for each vertex: the directional occlusion of each colour channel. If
@@ -341,7 +341,8 @@ void read_ao_as(const Scene& scene, const Instance& instance, nook_format format
 void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
                          std::size_t stride_bytes) noexcept;
 
-// Poses the casters of an instance if its pose has changed since the last call. Neither allocates nor throws.
+// Poses the world casters of an instance if the instance's pose has changed since the last call. Neither
+// allocates nor throws.
 void pose_world_casters(Instance& instance) noexcept;
 
 // Returns an occluder as a caster.
@@ -349,9 +350,9 @@ inline PosedCaster caster_of(const Sphere& sphere) {
   return {{sphere.centre, sphere.centre, sphere.radius, sphere.radius}, 1};
 }
 
-// Returns a strength such that the caster reduces AO by at most strength / d^2 at a distance d. This is an
-// upper bound: it uses the form factors of a disc and a rectangle that cover the caster's silhouette and face
-// the point.
+// Returns the strength of a caster, in square metres. At a distance d, the caster reduces AO by at most
+// strength / d^2. The bound is the form factor of a disc and a rectangle that cover the caster's silhouette
+// and face the point.
 float caster_strength(const PosedCaster& caster);
 
 }  // namespace nook

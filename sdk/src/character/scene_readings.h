@@ -18,8 +18,9 @@ std::uint64_t light_bytes(const LoadedModel& model);
 // Returns the number of instances that have a projected bone in their pose.
 std::uint32_t uneven_instances(const Scene& scene) noexcept;
 
-// The functions below read the shapes that a scene evaluates, for debug drawing. They pose the shapes one by
-// one, in world space. During an update, the kernels pose the same shapes with SIMD (shadow_kernels.h).
+// The functions below read the shapes that a scene evaluates, for debug drawing. These functions transform
+// the shapes to world space one by one. An update transforms the same shapes with SIMD kernels
+// (shadow_kernels.h).
 
 nook_scene_instance_info describe_instance(const Scene& scene, const Instance& instance) noexcept;
 

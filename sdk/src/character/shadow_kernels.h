@@ -24,8 +24,8 @@ constexpr std::uint32_t padded_key_points(std::uint32_t count) {
   return (count + key_point_group - 1) / key_point_group * key_point_group;
 }
 
-// Smaller spheres are treated as spheres of this radius, 1 micrometre, so that squared distances in radii
-// stay finite.
+// The minimum radius of a sphere, 1 micrometre. Smaller spheres get this radius, so that squared distances in
+// units of the radius stay finite.
 inline constexpr float min_sphere_radius = float(NOOK_MIN_SPHERE_RADIUS);
 // Coordinates up to this many metres from the origin give finite results. Float precision becomes useless
 // long before that.
@@ -105,8 +105,8 @@ struct PosedSphereTree {
   float core[max_masses];      // square metres, added to the squared distance
   float mass[max_masses];      // square metres: 3/4 of the squared radius, or for a node, 3/4 of the sum of
                                // squared radii
-  float reach[max_spheres];    // squared distance in square metres, only for nodes: for key points that are
-                               // closer, use the node's halves instead of the node
+  float reach[max_spheres];  // squared distance in square metres, only for nodes: for key points closer than
+                             // this, use the node's halves instead
 };
 // The two halves of a node. Each is the index of a node or sphere in PosedSphereTree. A node has a smaller
 // index than its halves.
@@ -121,12 +121,12 @@ struct SphereTreeView {
 };
 
 // 16 vertices of the linear layer, as a small dense matrix. The matrix has a column for each key point that
-// at least one of the vertices uses. A column takes only a few instructions for all 16 vertices. Looking up
-// the key points of each vertex would take one load per entry. Columns are stored in pairs, because
-// processors can sum two products of 16-bit numbers in one instruction. The two key points of pair p of the
-// block are in key_points[first_pair + p]. The alphas of the pair start at alpha[32 (first_pair + p)], and
-// the blend weights at blend[32 (first_pair + p)]; the two values of a vertex are next to each other. If the
-// number of columns is odd, a last column without weights is added.
+// at least one of the vertices uses. A column takes only a few instructions for all 16 vertices. Without
+// blocks, each entry of each vertex would need its own load. Columns are stored in pairs, because processors
+// can sum two products of 16-bit numbers in one instruction. The two key points of pair p of the block are in
+// key_points[first_pair + p]. The alphas of the pair start at alpha[32 (first_pair + p)], and the blend
+// weights at blend[32 (first_pair + p)]; the two values of a vertex are next to each other. If the number of
+// columns is odd, a last column without weights is added.
 struct LinearBlock {
   std::uint32_t first_pair = 0;
   std::uint32_t pairs = 0;
@@ -155,7 +155,7 @@ struct LinearView {
   const std::int16_t* blend = nullptr;  // blend weights, in the layout of alpha
   float alpha_step = 1, blend_step = 1;
   const float* open_bias = nullptr;  // 1 - bias, for each slot
-  // If codes do not exceed these limits, the sum of every vertex fits into 32 bits.
+  // The limits for encode_points. With codes up to these limits, the sum of every vertex fits into 32 bits.
   float shadow_limit = 1, occlusion_limit = 1;
 };
 inline constexpr float max_code_limit = 32767;
@@ -164,14 +164,15 @@ struct ShadowKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
 
-  // sum[k] += sum over spheres of y^gamma. To join several sets of spheres in one norm, call it several times
-  // with the same key points. SIMD tables use the processor's fast estimates of roots. The shadow after
-  // norm_root differs by at most 2e-4 from the formulas in double precision; above 1, this error is relative.
+  // sum[k] += sum over spheres of y^gamma. To add several sets of spheres to one norm, call the function once
+  // for each set, with the same key points. SIMD tables use the processor's fast estimates of roots. The
+  // shadow after norm_root differs by at most 2e-4 from the formulas in double precision; above 1, this error
+  // is relative.
   void (*self_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                         float* sum);
-  // The same for the default kernel and gamma 1, but uses nodes of a tree instead of far spheres. Each group
-  // of key points uses the largest nodes whose reach does not touch the group's box. Returns the number of
-  // evaluated pairs of a key point and a sphere or node.
+  // Computes the same sum for the default kernel and gamma 1, but replaces far spheres by nodes of a tree.
+  // Each group of key points uses the largest nodes whose reach does not touch the group's box. Returns the
+  // number of evaluated pairs of a key point and a sphere or node.
   std::uint64_t (*tree_sum)(const SphereTreeView& tree, const KeyPointSoa& points, float* sum);
   // shadow[k] = saturated(sum[k]^(1 / gamma), saturation[k]); sum and shadow may be the same array.
   void (*norm_root)(const float* sum, const float* saturation, std::uint32_t padded_count, float gamma,
@@ -181,7 +182,7 @@ struct ShadowKernels {
   // form factor. Pass the spheres of one caster, and the surface key points.
   void (*composed_depth)(const SphereSoa& spheres, const KeyPointSoa& points, float* depth);
   // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, with the exact formula of the form
-  // factor. Pass the ground or free occluders. If caster_weight is NULL, all weights are 1.
+  // factor. Pass the spheres of the ground or of free occluders. If caster_weight is NULL, all weights are 1.
   void (*exact_open)(const SphereSoa& spheres, const KeyPointSoa& points, float* open);
   // occlusion[k] = 1 - open[k] * exp(-depth[k]). If `depth` is NULL, it counts as 0; if `open` is NULL, it
   // counts as 1.
@@ -221,14 +222,14 @@ struct ShadowKernels {
   // rgb[k] *= 1 - min(1, form factor * rho) for each sphere: the coloured form of exact_open.
   void (*directional_open)(const SphereSoa& spheres, const KeyPointSoa& points, const LightView& light,
                            float* const* inverse, float* const* rgb);
-  // The same for the sphere of the ground. `up` is the unit normal of the ground's plane.
+  // Like directional_open, for the sphere of the ground. `up` is the unit normal of the ground's plane.
   void (*directional_ground)(const SphereSoa& ground, const KeyPointSoa& points, const LightView& light,
                              Vec3 up, float* const* rgb);
   // The coloured form of linear_layer. It multiplies the self-shadow of linear_layer by (sum alpha *
-  // coloured) / (sum alpha * shadow), see vertex_light_ratio. In this way, the light of the key points also
-  // applies to the bias. This matters where key points are darker than their vertex, because the self-shadow
-  // is then a small difference of large values. If `occlusion` is NULL, evaluates only self-shadow. For any
-  // input, the results are in [0, 1].
+  // coloured) / (sum alpha * shadow), see vertex_light_ratio. Because of this factor, the light of the key
+  // points also changes the bias. This is important for vertices whose key points are darker than the vertex:
+  // their self-shadow is a small difference of large values. If `occlusion` is NULL, evaluates only
+  // self-shadow. For any input, the results are in [0, 1].
   void (*directional_linear_layer)(const LinearView& layer, const float* shadow, const float* const* coloured,
                                    const float* const* occlusion, float* const* rgb);
 };

@@ -3,9 +3,9 @@
 // A far sphere reduces AO by weight * radius^2 * cos / d^2, like the field of a charge of `mass` = weight *
 // radius^2. If spheres are close together as seen from the receiver, one sphere at their centre with the sum
 // of their masses acts like all of them. cos / d^2 is the field of a dipole, which is harmonic. So the error
-// of a group is of second order in the extent of the group, and vanishes if the extent is the same in all
-// directions. The error is determined by the nearest part of the receiver. Two bodies whose arms cross
-// therefore keep their spheres.
+// of a group is of second order in the extent of the group, and is 0 if the extent is the same in all
+// directions. The nearest part of the receiver determines the error. Therefore two bodies whose arms cross
+// use their single spheres, not groups.
 #pragma once
 
 #include <cmath>
@@ -25,8 +25,8 @@ inline constexpr std::uint32_t tier_groups[group_tiers] = {16, 6, 2};
 // The groups of a model's spheres, which do not depend on the pose.
 class SphereGroups {
  public:
-  // Splits the spheres in the rest pose. Each step splits the group with the largest moment, at the group's
-  // centre and across its longest axis.
+  // Splits the spheres in the rest pose. Each step splits the group with the largest moment. It splits the
+  // group at its centre, across its longest axis.
   explicit SphereGroups(const CharacterModel& model, Memory* memory = default_memory());
 
   // Group g of tier t consists of member[first[g]...first[g + 1]]: spheres for t = 0, otherwise groups of
@@ -52,8 +52,8 @@ struct GroupLanes {
   std::uint32_t count = 0;
 };
 
-// Describes the places at which a receiver is darkened, in metres: their bounding box, and a sample of the
-// places. Without any place, the box is empty.
+// The places at which a receiver is darkened: their bounding box, and a sample of the places, in metres.
+// Without any place, the box is empty.
 struct Receiver {
   static constexpr std::uint32_t samples = 16;
 
@@ -68,8 +68,9 @@ Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32
 // Merges `parts` into the groups of a tier. `parts` are the posed spheres, or the groups of the previous
 // tier. A group gets the mass and centre of its parts. Its radius is chosen so that it has the same spread as
 // its parts: along each axis, the spread of a disc is a quarter of its squared radius. part_moments are the
-// moments of the groups of the previous tier, or null for spheres. A group's moment is computed from the
-// pose, so a group whose parts have moved apart counts as large.
+// moments of the groups of the previous tier, or null for spheres. The moment of a group is computed from the
+// pose. So a group whose parts have moved apart in the pose has a large moment and is not used near the
+// receiver.
 void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const float* part_moments,
                   const GroupLanes& out);
 

@@ -33,9 +33,9 @@ class SphereTree {
   AlignedArray<SphereTreeNode> nodes_;
 };
 
-// Merges the posed spheres into the nodes of the tree, and sets the reach of each node. Outside its reach, a
-// node changes a shadow by less than a fixed multiple of `error`, as far as can be estimated. `error` is in
-// AO.
+// Merges the posed spheres into the nodes of the tree, and sets the reach of each node. For a key point
+// outside its reach, a node changes the shadow by less than a fixed multiple of `error`. This is an estimate,
+// not a bound. `error` is in AO.
 SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float error, PosedSphereTree& out);
 
 }  // namespace nook

@@ -1,7 +1,7 @@
 // Finds the matching model vertex for each vertex of a host's mesh.
 //
 // Several vertices of a model can lie at one place: where two primitives meet, on the two sides of a card, or
-// in layers of hair. The best fit is chosen. The criteria, in order of priority:
+// in layers of hair. The function then chooses the best match by these criteria, the most important first:
 //   place, equal weights, side of the triangles or of the normal, near weights, normal, order of the host's
 //   vertices.
 #pragma once
@@ -21,7 +21,7 @@ struct VertexMatches {
   // Counts the host vertices that fit several model vertices with different AO. The first of them is
   // first_ambiguous.
   std::uint32_t ambiguous = 0, first_ambiguous = no_vertex;
-  // Two file vertices that the first ambiguous vertex fits: the one that was chosen, and another one.
+  // Two file vertices that both match the first ambiguous vertex: `taken` was chosen, and `other` was not.
   std::uint32_t taken = no_vertex, other = no_vertex;
 };
 

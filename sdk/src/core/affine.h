@@ -41,8 +41,8 @@ struct Similarity {
   double deviation = 0;  // relative deviation of the linear part, 0 for a rigid or uniformly scaled matrix
 };
 
-// Both matrices map the point `fixed` to the same point. Pass the joint's origin, so that removing shear does
-// not move the joint.
+// Returns the similarity that is nearest to `a` and maps the point `fixed` to the same point as `a` does.
+// Pass the joint's origin as `fixed`, so that the joint does not move when the shear is removed.
 Similarity nearest_similarity(const Affine& a, const std::array<double, 3>& fixed);
 
 Mat3x4 to_float(const Affine& a);

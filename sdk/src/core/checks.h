@@ -23,7 +23,7 @@ class NumberText {
     const auto bits = static_cast<std::uint64_t>(value);
     write(is_negative ? "-" : "", is_negative ? 0 - bits : bits);
   }
-  // Prints six digits.
+  // Formats the value with six digits.
   explicit NumberText(double value) noexcept;
 
   const char* get() const noexcept { return text_; }
@@ -37,11 +37,11 @@ class NumberText {
 template <class Number>
 concept CheckedNumber = std::integral<Number> || std::floating_point<Number>;
 
-// Throws: NAME is out of range (got GOT, need NEED).
+// Throws Failure with the text "NAME is out of range (got GOT, need NEED)".
 [[noreturn]] void fail_range(nook_result code, const char* name, const NumberText& got, const char* need);
 [[noreturn]] void fail_range(nook_result code, const char* name, const NumberText& got, const NumberText& low,
                              const NumberText& high);
-// Throws: NAME is unknown (got GOT, need 0 to LAST).
+// Throws Failure with the text "NAME is unknown (got GOT, need 0 to LAST)".
 [[noreturn]] void fail_unknown(const char* name, std::int32_t got, std::int32_t last);
 
 // Throws unless `fits` is true. `need` says in words what is needed, such as "0 or more". Floats must also be
@@ -49,7 +49,7 @@ concept CheckedNumber = std::integral<Number> || std::floating_point<Number>;
 template <CheckedNumber Number>
 void check_fits(const char* name, Number value, bool fits, const char* need,
                 nook_result code = NOOK_ERROR_INVALID_ARGUMENT) {
-  // For finite numbers only, the number minus itself is 0.
+  // The difference of a number and itself is 0 only if the number is finite.
   if (!fits || !(value - value == 0)) fail_range(code, name, NumberText(value), need);
 }
 
@@ -73,7 +73,7 @@ void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
 std::size_t checked_stride(const char* name, std::size_t stride, std::size_t count,
                            std::size_t element_bytes);
 
-// The same for tightly packed arrays. `name` is the name of the count.
+// Like checked_stride, for tightly packed arrays. `name` is the name of the count.
 void check_array(const char* name, std::size_t count, std::size_t element_bytes);
 
 // Checks a switch, which must be 0 or 1.

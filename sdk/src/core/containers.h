@@ -1,5 +1,5 @@
-// The standard containers, with memory from a Memory. A container of containers passes its memory on to its
-// elements.
+// The standard containers, which allocate from a Memory. A container of containers passes its Memory on to
+// its elements.
 #pragma once
 
 #include <cstddef>

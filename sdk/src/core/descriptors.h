@@ -1,6 +1,6 @@
-// Handles the versions of structs in the C interfaces. New versions may append fields to a struct. So a
-// caller that was compiled with an older or newer header passes a smaller or larger struct than the
-// library's.
+// Handles the versions of structs in the C interfaces. New versions may append fields to a struct. So the
+// struct of a caller that was compiled with an older or newer header can be smaller or larger than the
+// library's struct.
 #pragma once
 
 #include <nook/nook.h>
@@ -94,10 +94,10 @@ void check_extensions(const void* next) {
   }
 }
 
-// Returns the caller's struct in this library's version. Fields that the caller's struct does not have get
-// their defaults. Fields that only a newer header has must be 0. `next` of the struct may point to extensions
-// of the types Ext; get them with find_extension. Read each extension with this function, too, and pass the
-// same list of types as Ext.
+// Returns a copy of the caller's struct in this library's version. Fields that are missing in the caller's
+// struct get their defaults. Fields that this library does not know, from a newer header, must be 0. `next`
+// of the struct may point to extensions of the types Ext; get them with find_extension. Read each extension
+// with this function, too, and pass the same list of types as Ext.
 template <class Desc, class... Ext>
 Desc read_descriptor(const Desc* desc) {
   need(desc, "desc");

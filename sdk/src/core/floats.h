@@ -46,9 +46,9 @@ inline float from_half(std::uint16_t half) {
   return sign ? -value : value;
 }
 
-// Below: writes floats into the text of shaders.
+// The functions below write floats into the text of shaders.
 
-// Has room for the longest text, -1.17549435e-38, and its terminating zero.
+// The text of a float. It has room for the longest text, -1.17549435e-38, and its terminating zero.
 struct FloatLiteral {
   char text[16];
 };

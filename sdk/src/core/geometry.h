@@ -20,8 +20,8 @@ struct PosedCaster {
   float ao_scale = 1;
 };
 
-// Limit for the magnitude of each coordinate, in metres. The step of a float there is 6 cm, so larger
-// characters and scenes are not useful. Within the limit, all products of coordinates are finite.
+// Limit for the magnitude of each coordinate, in metres. At this distance, neighbouring floats differ by 6
+// cm, so larger coordinates are not useful. Within the limit, all products of coordinates are finite.
 constexpr float max_metres = 1e6f;
 
 // True if no coordinate exceeds max_metres in magnitude. False if a coordinate is not finite.
@@ -29,8 +29,8 @@ inline bool is_place(Vec3 p) {
   return std::abs(p.x) <= max_metres && std::abs(p.y) <= max_metres && std::abs(p.z) <= max_metres;
 }
 
-// Limits for the matrices of a pose, which map rest space to world space. They are larger than any world
-// needs, but squares of the transformed positions are still finite.
+// Limits for the matrices of a pose, which map rest space to world space. These limits are larger than any
+// world needs, but the squares of transformed positions are still finite.
 constexpr float max_pose_metres = 1e9f, max_pose_scale = 1e6f;
 
 // True if the matrix is within these limits. False if an element is not finite.

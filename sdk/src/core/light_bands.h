@@ -1,6 +1,6 @@
-// Bands 0 to 2 of light that is a sum of lobes, and bands 0 to 2 of densities over directions. Densities are
-// summed first and then combined with the light, so the cost of a density does not depend on the number of
-// lobes. The mean of the light under a density around d is
+// Represents light, which is a sum of lobes, and densities over directions by their bands 0 to 2. Densities
+// are summed first and then combined with the light, so the cost of a density does not depend on the number
+// of lobes. The mean of the light under a density around d is
 //   scalar + A1 dot(vector, d) + A2 dot(d, tensor d),
 // where A1 and A2 are the density's own bands: the means of its cosine to d and of (3 cosine^2 - 1) / 2.
 //
@@ -81,7 +81,7 @@ struct GatheredBands {
   }
   // Adds the density exp(dot(b, s)). Its bands are A1 = 1 - 1 / |b| and A2 = 1 - 3 A1 / |b|, without a term
   // e^(-2 |b|). This term is below 0.015 here, because |b| >= directional_cosine. The only exception is a
-  // normal that became zero by blending bones.
+  // normal that bone blending has made zero.
   void add(const Direction<F>& b, F weight) {
     const F t = rsqrt(max(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)), F(1.0f)));
     const F a1 = F(1.0f) - t, a2 = fma(F(-3.0f) * t, a1, F(1.0f));

@@ -38,7 +38,7 @@ struct MapTexel {
 };
 MapTexel map_texel(const MapView& map, std::uint32_t column, std::uint32_t row);
 
-// The cells of a cube with side x side cells per face, like the texels of a cube map. Returns the unit
+// A cube has side x side cells per face, like the texels of a cube map. This function returns the unit
 // direction through a cell's centre, and the cell's solid angle in steradians.
 Vec3 cube_cell_direction(std::uint32_t face, std::uint32_t column, std::uint32_t row, std::uint32_t side);
 double cube_cell_angle(std::uint32_t column, std::uint32_t row, std::uint32_t side);
@@ -57,8 +57,8 @@ struct MapSun {
   Vec3 irradiance;        // RGB on a surface that faces the sun, only from the sun's light above the limit
   float solid_angle = 0;  // solid angle of the sun's texels, in steradians
   // The solid angle, in steradians, that a uniform disc has if its irradiance and its integral of squared
-  // luminance equal the sun's. Texels of glare hardly affect it, because they hold little light even if they
-  // are many.
+  // luminance equal the sun's. Glare around a sun hardly affects this solid angle, because its texels contain
+  // little light even if there are many.
   float disc_solid_angle = 0;
 };
 

@@ -8,8 +8,9 @@
 
 namespace nook {
 
-// True for a matrix that mirrors: its determinant is negative, and not only by rounding. For a flattening
-// matrix of floats, the determinant can have either sign, and is about 1e-7 relative to the matrix.
+// True if the matrix mirrors. Then its determinant is negative by more than rounding errors. If a matrix of
+// floats flattens space, rounding gives the determinant either sign, with a magnitude of about 1e-7 relative
+// to the matrix.
 inline bool mirrors(const Affine& a) {
   double square = 0;
   for (int i = 0; i < 3; ++i)

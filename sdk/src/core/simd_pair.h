@@ -1,6 +1,6 @@
-// Two SIMD vectors as one number type. Each operation runs on both vectors, so that the latency of one is
-// hidden by the work on the other. V is the vector type of an instruction set, from the set's folder in
-// sdk/src/isa.
+// Two SIMD vectors as one number type. Each operation runs on both vectors. While one result is not ready
+// yet, the processor works on the other vector. V is the vector type of an instruction set, from the set's
+// folder in sdk/src/isa.
 #pragma once
 
 namespace nook::simd {

@@ -8,7 +8,7 @@
 
 namespace nook::simd {
 
-// The logarithm to base 2 has an absolute error of at most 1e-6 plus rounding.
+// Returns the logarithm to base 2. The absolute error is at most 1e-6 plus rounding.
 template <class F>
 F log2_of(F a) {
   F exponent, mantissa;
@@ -40,14 +40,14 @@ F exp2_of_bounded(F a) {
   return times_power_of_two(p, whole);
 }
 
-// The same for any a. The result is at most 2^127.
+// Returns 2^a for any a. The result is at most 2^127.
 template <class F>
 F exp2_of(F a) {
   return exp2_of_bounded(min(a, F(127.0f)));
 }
 
-// The relative error is at most 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4]. This is the error of the
-// logarithm times the exponent. For base 0, the result is 0.
+// Returns base^exponent. The relative error is at most 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4].
+// It is proportional to the error of the logarithm times the exponent. For base 0, the result is 0.
 template <class F>
 F power_of(F base, F exponent) {
   const F smallest(1e-37f);

@@ -37,8 +37,8 @@ template <std::floating_point T>
 T rsqrt(T a) {
   return 1 / std::sqrt(a);
 }
-// In the SIMD versions, the next three functions use the processor's fast estimates, with a relative error of
-// up to 1e-4. This one returns the square root of a >= 1e-30.
+// Returns the square root of a >= 1e-30. In the SIMD versions, this function and the next two use the
+// processor's fast estimates, with a relative error of up to 1e-4.
 template <std::floating_point T>
 T sqrt_positive(T a) {
   return std::sqrt(a);
@@ -54,7 +54,7 @@ T rsqrt_cubed(T a, float scale) {
   const T t = 1 / std::sqrt(a);
   return scale * t * t * t;
 }
-// Requires base >= 0 and exponent > 0.
+// Returns base^exponent. `base` must be >= 0, and `exponent` > 0.
 template <std::floating_point T>
 T power(T base, T exponent) {
   return std::pow(base, exponent);
@@ -67,7 +67,7 @@ template <std::floating_point T>
 T exponential(T a) {
   return std::exp(a);
 }
-// `a` must be in [-1, 1].
+// Returns the arc cosine of `a`, which must be in [-1, 1].
 template <std::floating_point T>
 T arc_cosine(T a) {
   return std::acos(a);

@@ -1,7 +1,7 @@
 // Spherical Gaussians, called lobes, and their closed forms:
-//   G(s) = amplitude exp(sharpness (dot(axis, s) - 1)). Sharpness 0 is a constant over the sphere. The
+//   G(s) = amplitude exp(sharpness (dot(axis, s) - 1)). A lobe of sharpness 0 is constant over the sphere. The
 // functions are accurate from sharpness 0 to far beyond the resolution of float directions, because they
-// subtract large numbers before they compute exponentials.
+// subtract the large exponents before they compute the exponential.
 #pragma once
 
 #include <algorithm>
@@ -149,10 +149,9 @@ std::array<T, 5> gaussian_bands(T sharpness) {
   return band;
 }
 
-// Returns the irradiance of a lobe of integral 1 on a surface; cosine is dot(axis, n). There are three forms.
-// This form uses the zonal harmonics of the clamped cosine up to band 4; odd bands above 1 are 0. Relative to
-// the irradiance of a perpendicular light, its error is at most 1.5e-3 at sharpness 6, and at most 1e-2 at
-// sharpness 16.
+// Returns the irradiance of a lobe of integral 1 on a surface; cosine is dot(axis, n). This function uses the
+// zonal harmonics of the clamped cosine up to band 4; odd bands above 1 are 0. Relative to the irradiance of
+// a perpendicular light, its error is at most 1.5e-3 at sharpness 6, and at most 1e-2 at sharpness 16.
 inline float gaussian_unit_irradiance_bands(float sharpness, float cosine) {
   const std::array<float, 5> band = gaussian_bands(sharpness);
   const float c2 = cosine * cosine;
@@ -162,7 +161,7 @@ inline float gaussian_unit_irradiance_bands(float sharpness, float cosine) {
 }
 
 // S. Hill's fit. From this sharpness on, its error is at most 1.6e-2, relative to the irradiance of a
-// perpendicular light. Below this sharpness, the fit is not defined, and the bands are used.
+// perpendicular light. Below this sharpness, the fit is not defined, so the bands are used instead.
 inline constexpr float hill_min_sharpness = float(NOOK_FITTED_IRRADIANCE_MIN_SHARPNESS);
 inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   if (sharpness < hill_min_sharpness) return gaussian_unit_irradiance_bands(sharpness, cosine);
@@ -176,7 +175,7 @@ inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   return std::max((1 - rest) * y + bias, 0.0f);
 }
 
-// The third form, which is the most accurate, uses the bands up to this sharpness, and the fit above it.
+// The most accurate form uses the bands up to this sharpness, and the fit above this sharpness.
 inline constexpr float bands_max_sharpness = float(NOOK_BANDS_MAX_SHARPNESS);
 inline float gaussian_unit_irradiance_best(float sharpness, float cosine) {
   return sharpness <= bands_max_sharpness ? gaussian_unit_irradiance_bands(sharpness, cosine)

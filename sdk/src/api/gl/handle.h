@@ -13,15 +13,15 @@
 struct nook_gl_s : nook::RefCounted {
   nook_gl_s(nook_context_s* made_by, const nook_gl_desc& desc);
 
-  // Runs `body`. Handles the OpenGL state of these users (touched_state.h) in the way that was chosen when
-  // the handle was created.
+  // Runs `body`. Meanwhile a StateGuard protects the OpenGL state of `users` (touched_state.h), in the mode
+  // that the host chose in nook_gl_create.
   template <class Body>
   void guarded(unsigned users, Body&& body) {
     device.need_alive();
     const nook::gl::StateGuard guard(device, users);
     body();
   }
-  // The same, for the OpenGL state that the evaluation of characters touches.
+  // Like the function above, for the OpenGL state that the evaluation of characters changes.
   template <class Body>
   void guarded(Body&& body) {
     guarded(nook::gl::character_users(device.gl), std::forward<Body>(body));

@@ -17,7 +17,7 @@
 
 namespace nook::api {
 
-// A transfer in the paper's form, with the data that its updates need.
+// An upload of a transfer in the paper's form, with the data that nook_gl_update_transfer needs.
 struct PaperUpload {
   PaperUpload(gl::Device& device, nook_transfer transfer, nook_transfer_response under)
       : texture(device, transfer->transfer),
@@ -32,8 +32,8 @@ struct PaperUpload {
 }  // namespace nook::api
 
 struct nook_gl_upload_s : nook::RefCounted {
-  // Constructs content of the given type from `arguments`. A guard protects the OpenGL state of these users
-  // meanwhile.
+  // Constructs content of the given type from `arguments`. Meanwhile a StateGuard protects the OpenGL state
+  // of `users`.
   template <class Content, class... Arguments>
   nook_gl_upload_s(std::in_place_type_t<Content>, nook_gl_s* made_by, unsigned users,
                    Arguments&&... arguments)
