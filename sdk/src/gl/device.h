@@ -40,14 +40,14 @@ struct Device {
   // If nook_gl_desc.debug is set, throws Failure unless the OpenGL context that was current in nook_gl_create
   // is current.
   void need_current() const;
-  // Returns whether objects may be deleted in the current context. If another context is current, deleting
-  // them would be wrong, so they leak, and the log says so once.
+  // Returns whether objects may be deleted in the current context. If another context is current, the objects
+  // must not be deleted. They leak, and a message in the log reports this once.
   bool may_delete() const;
   // Call adopt for every OpenGL name that Nook creates, and remove for every name that it deletes. While a
-  // call holds a StateGuard, remove defers the deletion until the host's state is restored. Then OpenGL
-  // unbinds the object wherever the host has it bound. If the object were deleted earlier, the guard could
-  // not bind it again. adopt reserves the memory that remove needs, so that removing never allocates. If this
-  // fails, adopt deletes the name and throws std::bad_alloc.
+  // call holds a StateGuard, remove defers the deletion until the host's state is restored. When the object
+  // is then deleted, OpenGL unbinds it wherever the host has bound it. If remove deleted the object earlier,
+  // the guard could not restore these bindings. adopt reserves the memory that remove needs, so that removing
+  // never allocates. If adopt cannot reserve this memory, it deletes the name and throws std::bad_alloc.
   void adopt(ObjectKind kind, GLuint name);
   void remove(ObjectKind kind, GLuint name) noexcept;
   void begin_call() { ++calls_; }
@@ -65,7 +65,7 @@ struct Device {
   std::uint64_t buffer_bytes = 0;
   std::uint64_t ao_bytes = 0;
 
-  // The maximum size of a buffer that is bound as one piece: the limit of the context, but at most 128 MiB.
+  // The maximum size of a buffer range that is bound at once: the limit of the context, but at most 128 MiB.
   std::uint64_t max_piece_bytes = std::uint64_t{128} << 20;
   std::uint64_t storage_alignment = 256;  // bytes
   std::uint32_t max_texels = 65536;       // in a table of texels

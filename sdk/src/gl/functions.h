@@ -1,6 +1,6 @@
 // The OpenGL functions that Nook calls. There is one list for each tier, and one table of pointers for each
-// context, which is filled by the host's loader. glad provides only types and constants. Its loader is not
-// linked, so Nook contains none of its symbols and global memory.
+// context, which is filled by the host's loader. glad provides only types and constants. The loader of glad
+// is not linked, so Nook contains no symbols and no global variables of glad.
 #pragma once
 
 #include <glad/gl.h>
@@ -103,7 +103,8 @@ namespace nook::gl {
   X(VertexAttribPointer)                 \
   X(Viewport)
 
-// Additional functions of OpenGL 3.3. Some of them are also in OpenGL ES 3.2 and are used there.
+// Additional functions of OpenGL 3.3. Some of these functions also exist in OpenGL ES 3.2, and Nook uses them
+// there.
 #define NOOK_GL_FUNCTIONS_33(X) \
   X(ColorMaski)                 \
   X(Disablei)                   \

@@ -30,8 +30,8 @@ class Buffer {
 
   GLuint name() const { return name_; }
   std::uint64_t bytes() const { return bytes_; }
-  // Replaces the contents: fill(memory) must write `bytes` bytes. The GPU may still be reading the old
-  // contents, which are preserved for it. The call does not wait, with one exception: if a texture reads the
+  // Replaces the contents: fill(memory) must write `bytes` bytes. The GPU may still read the old contents,
+  // and reads them unchanged. The call does not wait for the GPU, with one exception: if a texture reads the
   // buffer, NVIDIA's driver waits for the GPU in the map call. OpenGL may lose the written contents, for
   // example when the display mode changes. In this case, fill is called again. Throws Failure if OpenGL is
   // out of memory or loses the contents repeatedly.
@@ -44,8 +44,8 @@ class Buffer {
     fail_write(bytes);
   }
   // Replaces the contents by the caller's memory. Use it for buffers that a texture reads, because NVIDIA's
-  // driver does not wait here. Failures are not reported, because an update does not query OpenGL errors; the
-  // host will find them.
+  // driver does not wait here. The call does not report failures, because an update does not query OpenGL
+  // errors. The host sees the error when it queries OpenGL errors.
   void send(std::uint64_t bytes, const void* data);
 
  private:
@@ -76,7 +76,7 @@ class Object {
   using Kind = ObjectKind;
 
   Object() = default;
-  // Takes ownership of a name. If it throws std::bad_alloc, it has deleted the name.
+  // Takes ownership of a name. If the constructor throws std::bad_alloc, it has already deleted the name.
   Object(Device& device, Kind kind, GLuint name) : kind_(kind), name_(name) {
     device.adopt(kind, name);
     device_ = &device;

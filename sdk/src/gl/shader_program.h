@@ -13,13 +13,13 @@ const char* embedded_text(const char* path);
 struct ShaderNeeds {
   bool sample_textures = false;   // multisample textures; not in OpenGL ES 3.0
   bool sample_arrays = false;     // arrays of multisample textures; not in OpenGL ES 3.1
-  bool medium_precision = false;  // on OpenGL ES, floats of the fragment shader get it unless they are
-                                  // declared otherwise
+  bool medium_precision = false;  // on OpenGL ES, the fragment shader's floats have medium precision unless
+                                  // they are declared otherwise
   bool gathers = false;           // textureGather; in tiers with compute shaders
 };
 
 // Compiles and links a compute shader. `path` is the path of an embedded shader. `defines` is inserted before
-// its text, for example "#define A 1\n". If compiling or linking fails, these functions throw
+// its text, for example "#define A 1\n". If compiling or linking fails, the functions in this file throw
 // Failure(NOOK_ERROR_GL). The message contains the shader's name and the start of the compiler's log. The
 // complete log is written to the host's log.
 Object compute_program(Device& device, const char* path, const char* defines, ShaderNeeds needs = {});

@@ -39,7 +39,7 @@ struct BlendState {
   GLint equation_rgb = GL_FUNC_ADD, equation_alpha = GL_FUNC_ADD;
 };
 
-// OpenGL ES does not have the last two.
+// OpenGL ES does not have the last two of these parameters.
 inline constexpr GLenum pixel_store_names[] = {
     GL_UNPACK_ALIGNMENT,   GL_UNPACK_ROW_LENGTH,  GL_UNPACK_IMAGE_HEIGHT, GL_UNPACK_SKIP_ROWS,
     GL_UNPACK_SKIP_PIXELS, GL_UNPACK_SKIP_IMAGES, GL_UNPACK_SWAP_BYTES,   GL_UNPACK_LSB_FIRST};
@@ -47,7 +47,7 @@ struct PixelStore {
   GLint values[std::size(pixel_store_names)] = {4};
 };
 
-// OpenGL ES does not have the last one.
+// OpenGL ES does not have the last of these parameters.
 inline constexpr GLenum pixel_pack_names[] = {GL_PACK_ALIGNMENT, GL_PACK_ROW_LENGTH, GL_PACK_SKIP_ROWS,
                                               GL_PACK_SKIP_PIXELS, GL_PACK_SWAP_BYTES};
 struct PixelPack {
@@ -114,8 +114,9 @@ void set_primitive_restart(const Functions& gl, bool enabled);
 // Sets blending, masks, tests and capabilities so that a triangle fills the viewport without side effects.
 void set_plain_drawing(const Functions& gl);
 
-// While a guard exists, passes may change any of the touched state. Objects that they delete are kept until
-// the state has been restored. Transform feedback must end before the guard is destroyed.
+// While a guard exists, passes may change any state in touched_state.h. Objects that passes delete in this
+// time are really deleted only after the state has been restored. Transform feedback must end before the
+// guard is destroyed.
 class StateGuard {
  public:
   // `users` selects the items of NOOK_GL_TOUCHED_STATE.
@@ -146,8 +147,8 @@ inline unsigned screen_creation_users(const Functions& gl) {
   return screen | (gl.can.texture_buffers ? 0u : unsigned{texel_uploads});
 }
 
-// Declares a query function and a restore function for each item of the list. Restoring a new SavedState
-// resets the item to its default.
+// Declares a query function and a restore function for each item of the list. If you restore a
+// default-constructed SavedState, the item gets OpenGL's default.
 #define NOOK_X(name, users, what, note)                  \
   void query_##name(const Functions& gl, SavedState& s); \
   void restore_##name(const Functions& gl, const SavedState& s);

@@ -1,6 +1,6 @@
 // A one-dimensional table of float texels that shaders fetch by index. On OpenGL it is a texture buffer. On
 // OpenGL ES and WebGL it is a 2D texture that stores the table row by row. shaders/core/texels.glsl reads
-// both.
+// both kinds of table.
 #pragma once
 
 #include <algorithm>

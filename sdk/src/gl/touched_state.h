@@ -12,8 +12,8 @@ namespace nook::gl {
 // each tier. Uploads have one user for each kind: probes and materials, grids, clips, captures of probes, and
 // the binding of uploads. The screen-space pass has several users: the pass itself, reading its timers, a
 // network in a compute shader, nook_nnao_desc.views, nook_nnao_desc.depth_samples, and both of these
-// together. Two more users write AO to the host's buffers and textures, and record frames. The last one
-// uploads tables of texels, which are 2D textures on OpenGL ES.
+// together. Two more users are writing AO to the host's buffers and textures, and recording frames. The last
+// user is the upload of tables of texels, which are 2D textures on OpenGL ES.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,
@@ -38,8 +38,8 @@ enum : unsigned {
   draws = tier_33 | screen,
 };
 
-// X(name, users, the state as OpenGL names it, its purpose and default). Each item needs a member of
-// SavedState with this name, and functions query_name and restore_name in state_guard.cpp or
+// Each line is X(name, users, OpenGL's names of the state, purpose and default of the state). Each item needs
+// a member of SavedState with this name, and functions query_name and restore_name in state_guard.cpp or
 // state_guard_draw.cpp.
 #define NOOK_GL_TOUCHED_STATE(X)                                                                            \
   X(program, everyone | outputs | captures, "GL_CURRENT_PROGRAM", "runs the passes; default 0")             \

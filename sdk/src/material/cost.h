@@ -11,8 +11,8 @@ struct DecodeCost {
   std::uint32_t multiply_adds = 0;
 };
 
-// Returns how many fetches of spatial modes each additional place of a footprint costs. A mode that is stored
-// in blocks takes two fetches.
+// Returns the number of fetches of spatial modes for each additional place of a footprint. A mode that is
+// stored in blocks takes two fetches.
 inline std::uint32_t further_fetches(const TensorTables& t) {
   return t.terms * t.view_vec4_count * (t.light_modes + t.packed_modes);
 }
@@ -33,8 +33,8 @@ inline DecodeCost light_cost(const TensorTables& btf) {
   return {3 * btf.light_modes / 4, 3 * btf.light_modes};
 }
 
-// Return the cost of a neural material's first layers, and the cost of one light. The second is the number of
-// products in the matrices that depend on the light.
+// Return the cost of a neural material's first layers, and the cost of one light. The cost of one light is
+// the number of products in the matrices that depend on the light.
 inline DecodeCost neural_decode_cost(const NeuralTables& t) {
   const NeuralShape& s = t.shape;
   return {(s.channels + s.offset_channels) / 4,

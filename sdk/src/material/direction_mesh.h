@@ -51,9 +51,9 @@ class DirectionMesh {
   Vector<Edge> cavity_;  // the border of the hole that an insertion leaves
 };
 
-// Returns a factor that fades light to 0 between the lowest sampled lights and the horizon. It is the cosine
-// `z` of the light divided by the cosine of the nearest direction on the mesh, which `mix` describes. For
-// directions inside the mesh it is 1.
+// Returns a factor that fades light to 0 between the lowest sampled lights and the horizon. The factor is the
+// cosine `z` of the light divided by the cosine of the nearest direction on the mesh, which `mix` describes.
+// For directions inside the mesh, the factor is 1.
 inline float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, float z) {
   ParabolicPoint nearest{};
   for (int i = 0; i < 3; ++i) {

@@ -79,10 +79,10 @@ Four trilinear(const ImageSize& size, const Number* numbers, std::uint32_t layer
   });
 }
 
-// The size of images that are stored in blocks. Four values of a texel take two layers with two channels
-// each, in the layout of textures. Levels are stored one after another, each as layers x block rows x block
-// columns x channels x a block of signed_blocks.h. Blocks that extend beyond the edge of a level repeat the
-// last texels.
+// The size of images that are stored in blocks. The four values of a texel take two layers with two channels
+// each, as in the textures. Levels are stored one after another, each as layers x block rows x block columns
+// x channels x a block of signed_blocks.h. If a block extends beyond the edge of a level, it repeats the last
+// texels of the level.
 struct BlockSize {
   std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // layers of two channels
 

@@ -34,10 +34,10 @@ ViewRows sorted_rows(const ViewRows& rows, const TensorShape& shape, Memory* mem
 // a code for its clusters. Code 0 means that the cluster indices follow, with 8 bits each, or 16 bits if
 // there are more than 256 clusters. Code 1 means that the cell has the same clusters as the previous cell in
 // its row, and code 2 the same as the previous cell in its column. Then the coefficients follow as multiples
-// of the step, minus a prediction. The prediction is the multiples of the cell with the same clusters. If the
-// previous cells in the row, in the column and on the diagonal all have the same clusters as this cell, the
-// prediction is row + column - diagonal. The first k is for cells without a prediction, the second for all
-// others.
+// of the step, minus a prediction. The prediction consists of the multiples of the earlier cell that has the
+// same clusters. If the previous cells in the row, in the column and on the diagonal all have the same
+// clusters as this cell, the prediction is row + column - diagonal. The first k is for cells without a
+// prediction, the second for all others.
 void write_map_rows(ByteWriter& out, const ViewMap& map, const TensorShape& shape);
 
 // Returns the minimum number of bytes that this many cells can take in a file.

@@ -1,6 +1,6 @@
 // A compressed material as plain data: a bidirectional texture function (BTF) and optionally a view-dependent
-// occlusion texture function (VOTF). N-SVD, CTA and K-CTA use the same data structure; a neural BTF uses the
-// one in neural.h. The method is by Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
+// occlusion texture function (VOTF). N-SVD, CTA and K-CTA use this data structure; a neural BTF uses the data
+// structure in neural.h. The method is by Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
 //
 // Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z >= 0
 // along the normal. Texel (x, y) has its centre at u = (x + 0.5) / I_x, v = (y + 0.5) / I_y; the tile
@@ -78,15 +78,15 @@ constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
 }
 
 // The relief on which the texels of the BTF lie. Texel (x, y) of a view stores the appearance of the relief's
-// point above that texel. So a feature of the surface is at the same texel in all views, and mixing views
-// does not blur it. relief_place of relief_tables.h finds the point that a view sees through the plane z = 0.
-// The VOTF has no relief; its texels lie on that plane.
+// point above that texel. So a detail of the surface is at the same texel in all views. Therefore it stays
+// sharp when views are mixed. relief_place of relief_tables.h finds the point that a view sees through the
+// plane z = 0. The VOTF has no relief; its texels lie on that plane.
 struct Relief {
   explicit Relief(Memory* memory = default_memory()) : levels(memory) {}
 
-  float low = 0, high = 0;      // heights of the levels 0 and 255 above z = 0, in tiles; both 0: no relief
-  float max_slope = 0;          // views with a larger tangent of their tilt are clamped to this tangent
-  std::uint32_t steps = 0;      // of the march; 0 if the relief is a plane at low = high
+  float low = 0, high = 0;      // heights above z = 0 of level 0 and level 255, in tiles; both 0: no relief
+  float max_slope = 0;          // limit for the tangent of a view's tilt; larger tangents are clamped
+  std::uint32_t steps = 0;      // number of steps of the march; 0 if the relief is a plane at low = high
   Vector<std::uint8_t> levels;  // I_y x I_x of the BTF, row by row; empty for a plane
 
   bool moves() const { return low != 0 || high != 0; }
@@ -108,9 +108,9 @@ struct Material {
 
   // The mode-light basis, 3 I_l x R_l, which all clusters share. Row 3 l + channel belongs to light l.
   Vector<float> light_basis;
-  // Decodes to the radiance towards the view, in linear RGB, for a directional light that causes an
-  // irradiance of 1 on a plane facing the light. The radiance includes the cosine of the light's angle: a
-  // white Lambertian plane under a perpendicular light has the radiance 1 / pi.
+  // The BTF decodes to the radiance towards the viewer, in linear RGB. The light is directional, and causes
+  // an irradiance of 1 on a plane that faces the light. The radiance includes the cosine of the light's
+  // angle: a white Lambertian plane under a perpendicular light has the radiance 1 / pi.
   ClusteredTensor btf;
   Neural neural;  // replaces light_basis and btf, which are then empty
 

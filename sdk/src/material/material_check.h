@@ -14,8 +14,8 @@ inline constexpr std::uint32_t max_texels = 1024;                     // along u
 inline constexpr std::uint32_t max_mixture = 8;                       // K
 inline constexpr std::uint32_t max_row = 512;                         // K R_v, the coefficients of one view
 inline constexpr std::uint32_t max_map_side = 512;                    // cells of a resampled view map
-// One tensor's expanded spatial modes have at most this many values, C R_l R_v I_x I_y. Ranks are rounded up
-// to multiples of 4. As half floats, this many values take 1 GiB.
+// The maximum number of values in the expanded spatial modes of one tensor, C R_l R_v I_x I_y. Ranks are
+// rounded up to multiples of 4. As half floats, this many values take 1 GiB.
 inline constexpr std::uint64_t max_expanded = std::uint64_t{1} << 29;
 // The maximum size of one tensor's blocks, also 1 GiB. It needs its own limit, because a block of two
 // channels takes 16 bytes even if it holds a single texel.
@@ -30,8 +30,8 @@ inline constexpr float max_number = 0x1p14f;
 inline constexpr float max_relief_height = 1;
 inline constexpr float max_relief_slope = 57.3f;
 inline constexpr std::uint32_t max_relief_steps = 64;
-// Channels and units of a neural material are multiples of 4, for the features and for the offset. Up to
-// these sizes, sums of half floats stay finite in all layers.
+// The maximum sizes of a neural material. Its numbers of channels and units must be multiples of 4, for the
+// features and for the offset. Up to these sizes, sums of half floats stay finite in all layers.
 inline constexpr std::uint32_t max_neural_channels = 64;
 inline constexpr std::uint32_t max_neural_units = 64;
 inline constexpr std::uint32_t max_neural_layers = 4;

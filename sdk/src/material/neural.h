@@ -27,7 +27,7 @@ struct NeuralShape {
   std::uint32_t channels = 16;                           // of the features
   std::uint32_t units = 32;                              // of each hidden layer of the network
   std::uint32_t layers = 3;                              // hidden ones
-  std::uint32_t offset_channels = 8, offset_units = 16;  // of the network of the offset
+  std::uint32_t offset_channels = 8, offset_units = 16;  // for the offset
 
   std::size_t texels() const { return std::size_t(width) * height; }
   std::size_t blocks() const { return std::size_t(width + 3) / 4 * ((height + 3) / 4); }
@@ -55,7 +55,7 @@ constexpr std::size_t neural_hidden_layer(const NeuralShape& s, const NeuralLayo
   return at.hidden + (layer - 1) * s.units * (s.units + 1);
 }
 
-// The slope of a unit's activation for negative values.
+// The slope of the activation function r for negative values.
 inline constexpr float neural_leak = 0.01f;
 
 // Features are multiples of 1 / 127 in [-1, 1], as in textures of signed bytes. A block of 4 x 4 texels of

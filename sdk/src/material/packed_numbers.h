@@ -1,6 +1,6 @@
 // Stores arrays of floats in the sections of a file in one of two formats. The first is half floats with a
-// common exponent. The exponent scales the largest value close to the maximum of a half float, so that small
-// values keep their precision. The second is multiples of a step, in which small values take few bits.
+// common exponent. This exponent brings the largest value close to the maximum of a half float, so that small
+// values keep their precision. The second format is multiples of a step, in which small values take few bits.
 #pragma once
 
 #include <cstddef>

@@ -14,13 +14,14 @@ struct ParabolicPoint {
   float x = 0, y = 0;
 };
 
-// Directions below the horizon are moved onto it.
+// Returns the point of a direction. A direction below the horizon is first moved onto the horizon.
 inline ParabolicPoint to_parabolic(Vec3 d) {
   const float scale = 1 / (d.z > 0 ? 1 + d.z : std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f));
   return {d.x * scale, d.y * scale};
 }
 
-// Points outside the disc return the nearest direction of the horizon.
+// Returns the direction of a point. For a point outside the disc, returns the nearest direction of the
+// horizon.
 inline Vec3 from_parabolic(ParabolicPoint p) {
   const float square = p.x * p.x + p.y * p.y;
   if (square >= 1) {

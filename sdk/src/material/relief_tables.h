@@ -31,7 +31,7 @@ struct TexturePlace {
   float u = 0, v = 0;
 };
 
-// Returns how far, and in which direction, a point moves per unit of height in a view. The length is the
+// Returns the offset by which a point appears shifted in a view, per unit of height. The length is the
 // tangent of the view's tilt, at most max_slope.
 TexturePlace relief_slope(const ReliefTables& relief, Vec3 view);
 

@@ -32,8 +32,8 @@ constexpr std::uint8_t code_of(int sevenths) {
 enum class BlockForm : std::uint32_t { none = 0, rgtc = 1, eac = 2 };
 
 // Writes the eight bytes of a block for values in [-1, 1]. All eight levels of an RGTC block are multiples of
-// 1 / 127, so that decoders that round to bytes also return the specified values. Decoders that use byte
-// weights too, such as llvmpipe's, are off by 1 / 127 in some texels.
+// 1 / 127, so that decoders that round to bytes also return the specified values. Decoders that also round
+// the weights to bytes, such as llvmpipe, return a value that differs by 1 / 127 in some texels.
 void encode_block(BlockForm form, const float (&numbers)[16], std::uint8_t* bytes);
 
 // Decodes one texel of a block exactly as OpenGL specifies.

@@ -20,12 +20,13 @@ constexpr std::uint32_t vec4_count(std::uint32_t rank) {
   return (rank + 3) / 4;
 }
 
-// Chooses a block format for the spatial modes. With blocks, modes that are not in blocks are integers
-// instead of half floats. The light map then has fewer cells, and their values are fitted to the lights.
+// Chooses a block format for the spatial modes. If blocks are used, the modes outside blocks are stored as
+// integers instead of half floats. The light map then has fewer cells, and the values of these cells are
+// fitted to the lights.
 struct ModeForm {
   BlockForm blocks = BlockForm::none;
-  // This many light modes of a BTF, the first ones, are not stored in blocks, because blocks would lose the
-  // most precision there. The number is rounded up to a multiple of 4.
+  // The number of light modes of a BTF that are not stored in blocks. These are the first light modes,
+  // because blocks would lose most precision there. The number is rounded up to a multiple of 4.
   std::uint32_t whole_light_modes = 4;
 };
 
@@ -92,8 +93,8 @@ struct MaterialTables {
   // layers x side x side x 4 floats; light mode a of a channel is in layer channel light_modes / 4 + a / 4.
   // Values are divided by the power of two of the BTF's spatial modes. If modes are in blocks, the table has
   // fewer texels. The texels around each light are then adjusted so that filtering at a light returns exactly
-  // its row of the basis. Exceptions are rounding, and values above the maximum of the default table, which
-  // are clamped.
+  // its row of the basis. There are two exceptions: rounding, and values above the maximum of the default
+  // table, which are clamped.
   Vector<float> light;
   // With 8 bits, light_8 replaces `light`. The light map's columns are multiplied by r[a] and divided by the
   // largest value, and stored as integers from -127 to 127. The coefficients are multiplied by the largest

@@ -38,9 +38,10 @@ ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views,
 enum class CellHalf : std::uint32_t { left = 0, right = 1, lower = 2, upper = 3 };
 
 // Returns the step (-1, 0 or 1) to the cell with which a point in that half of a cell blends. If the cell on
-// the same side mixes the same clusters, the point blends with it. Otherwise, if the cell on the opposite
-// side mixes the same clusters, the coefficients are extrapolated from it. Otherwise the step is 0, and the
-// point does not blend. `neighbours` stores step + 1 in two bits for each half.
+// the same side mixes the same clusters, the point blends with it. If instead the cell on the opposite side
+// mixes the same clusters, the coefficients are extrapolated from that cell. If neither cell mixes the same
+// clusters, the step is 0, and the point does not blend. `neighbours` stores step + 1 in two bits for each
+// half.
 constexpr int neighbour_step(std::uint32_t neighbours, CellHalf half) {
   return int(neighbours >> (2 * std::uint32_t(half)) & 3u) - 1;
 }

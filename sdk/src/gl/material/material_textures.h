@@ -1,5 +1,5 @@
-// Uploads a material to texture arrays, and the coordinate texture that spreads it over a plane. Also returns
-// the GLSL that reads them.
+// Uploads a material to texture arrays, and uploads the coordinate texture that spreads a material over a
+// plane. Also returns the GLSL that reads these textures.
 #pragma once
 
 #include <cstdint>

@@ -10,7 +10,8 @@ namespace nook::gl {
 
 // Keeps the last four different sets, because hosts use a rotating set of textures in a swap chain. While
 // other sets are in use, a host may delete a texture and get the same name for a texture of another format.
-// So when a set returns for the first time, it is checked once more before it is treated as known.
+// So the first time that a pass uses a set again after another set, the set is checked a second time. After
+// this check, the set is known.
 class CheckedImages {
  public:
   static constexpr std::size_t most_sets = 4;

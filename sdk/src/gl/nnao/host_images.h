@@ -29,7 +29,7 @@ HostImages images_of(const NnaoFrame& frame, const nook_nnao_desc& pass);
 // pass uses.
 void check_images_of(const Functions& gl, const nook_nnao_desc& pass);
 
-// What OpenGL has reported about the images of a frame.
+// The results of OpenGL queries about the images of a frame.
 struct ImageFacts {
   std::uint32_t answers = 0;  // checksum of sizes and formats
   int depth_bits = 0;         // of the depth channel; 0: unknown

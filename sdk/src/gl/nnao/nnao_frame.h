@@ -18,7 +18,8 @@ struct NnaoFrame : nook_gl_frame_desc, nook_nnao_frame_desc {
   bool normalised_normals = false;  // normal_texture has normalised integers
 };
 
-// The settings of a pass. Fields that are -1 in the host's descriptor have the value of the preset.
+// The settings of a pass. Fields that are -1 in the host's descriptor are already replaced by the values of
+// the preset.
 struct NnaoSettings : nook_nnao_desc {
   nook_nnao_path path = NOOK_NNAO_PATH_AUTOMATIC;
   nook_nnao_sample depth_sample = NOOK_NNAO_SAMPLE_MEDIAN;

@@ -5,9 +5,9 @@
 //                    filter along x -> filter along y and resolve
 //   half resolution  host depth -> depth of every fourth pixel -> AO and edges -> [mean ->]
 //                    [filter along x and y ->] filter along x and y -> upsample and resolve
-// Only passes with max_history_frames have the mean over frames. Passes with several views draw the views one
-// after another. The paper's form reads normals at its taps, so it has another stage between depth and AO,
-// which writes normals.
+// Only passes with max_history_frames compute the mean over frames. Passes with several views draw the views
+// one after another. The paper's form reads normals at its taps, so it has another stage between depth and
+// AO, which writes normals.
 #pragma once
 
 #include <nook/nook_nnao.h>
@@ -23,7 +23,7 @@
 
 namespace nook::gl {
 
-// Returns the GLSL functions for host shaders that light with the result.
+// Returns the GLSL functions with which the host's shaders use the result for lighting.
 const char* screen_ao_glsl();
 
 std::uint64_t texture_bytes(const nook_nnao_desc& desc, nnao::NetworkForm form);
@@ -34,7 +34,7 @@ constexpr int filter_draws(const nook_nnao_desc& desc) {
   return desc.half_resolution || desc.blur == 0 ? 2 * desc.blur : 2 * desc.blur - 1;
 }
 
-// Every call may change any of the touched state, so the caller must hold a StateGuard.
+// Every call may change any OpenGL state in touched_state.h, so the caller must hold a StateGuard.
 class NnaoPass : public ScreenPass {
  public:
   // Throws Failure.

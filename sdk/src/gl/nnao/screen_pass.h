@@ -37,8 +37,9 @@ class ScreenPass {
   GLuint ao_texture() const { return own_.texture(); }
 
  protected:
-  // `desc` is the descriptor of the screen-space pass. Other passes pass the values that they use for the
-  // frame's constants. The pointers `network` and `next` of `desc` are not kept. Makes no OpenGL calls.
+  // `desc` is the descriptor of the screen-space pass. A pass of another kind fills the fields that the
+  // frame's constants depend on. The pointers `network` and `next` of `desc` are not kept. Makes no OpenGL
+  // calls.
   ScreenPass(Device& device, const NnaoSettings& desc);
 
   // Throws Failure if the pass is larger than the maximum texture size of this OpenGL context.
@@ -52,10 +53,11 @@ class ScreenPass {
   // Checks the images of a frame, and returns facts about them. If an image is not suitable, throws Failure
   // before anything is drawn.
   ImageFacts check(const HostImages& images, bool changed);
-  // Sets the stage that draws only pixels with a surface. Used only if nook_gl_desc.debug is set.
+  // Sets the stage that draws only pixels with a surface, for SurfaceWatch. It is only used if
+  // nook_gl_desc.debug is set.
   void make_watch(ScreenStage stage);
-  // If that stage exists, checks whether the frame shows any surface. bind_depth(frame) must bind the depth
-  // of a layer. Draws into the pass's own texture, which the frame overwrites later.
+  // If the stage of make_watch exists, checks whether the frame shows any surface. bind_depth(frame) must
+  // bind the depth of a layer. Draws into the pass's own texture, which the frame overwrites later.
   template <class BindDepth>
   void watch_surfaces(const NnaoFrame& frame, const BindDepth& bind_depth) {
     if (!watch_ || !watch_->begin(device_, frame)) return;

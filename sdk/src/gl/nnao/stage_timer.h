@@ -34,7 +34,7 @@ class StageTimer {
 
   Device& device_;
   std::array<std::array<Object, stage_count + 1>, kept_frames> marks_;
-  // Fences after the last mark of each kept frame; null until that mark is set.
+  // The fence after the last timestamp of each kept frame. It is null until the last timestamp is set.
   std::array<GLsync, kept_frames> fences_{};
   std::uint64_t frames_ = 0;  // number of frames that began
   int stage_ = 0;

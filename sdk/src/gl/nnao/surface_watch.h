@@ -11,8 +11,8 @@ class SurfaceWatch {
  public:
   explicit SurfaceWatch(Device& device) : query_(Object::make(device, Object::Kind::query)) {}
 
-  // Checks the result of an earlier frame. If it returns true, draw the pixels with a surface of this frame
-  // and then call end.
+  // Checks the query of an earlier frame. If the function returns true, draw those pixels of this frame that
+  // show a surface, and then call end.
   bool begin(const Device& device, const NnaoFrame& frame);
   void end(const Device& device);
 

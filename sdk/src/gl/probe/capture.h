@@ -67,7 +67,8 @@ Vector<float> capture_texels(const CapturePlan& plan, const probe::Basis& basis,
 // group of functions. mean.vert processes one point for each sum, and also updates the running average over
 // maps. solve.vert processes one point for each texel of the result.
 
-// The textures that a capture writes. At most one of them may be null. They must outlive the capture.
+// The textures that a capture writes. At most one of the pointers may be null. The textures must outlive the
+// capture.
 struct CaptureTargets {
   const ProbeTexture* lobes = nullptr;
   const GridVolume* grid = nullptr;
@@ -100,8 +101,8 @@ class ProbeCapture {
   // Adds a cube map to a probe's average, and writes the new average to the probe in the targets. The probe
   // must exist. If `restart` is true, the average starts again with this map.
   void add(std::size_t probe, GLuint cube_map, bool restart);
-  // Both functions wait for the GPU. If the plan has no lobes, the probes have harmonics. A probe to which no
-  // map was added is 0.
+  // read and solve wait for the GPU. If the capture has no lobes, the result of solve has harmonics. A probe
+  // to which no map was added is black.
   CaptureResult read(std::size_t probe) const;
   probe::Probes read_all() const;
 

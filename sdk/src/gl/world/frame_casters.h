@@ -36,8 +36,8 @@ class FrameCasters {
   // Returns true if some body may be farther away than its merging distance.
   bool far() const { return far_; }
 
-  // The positions of the lists in the table, in texels, and their numbers of tile columns. A value is 0 if
-  // the list does not exist.
+  // The functions below return the position of each list in the table, in texels, and its number of tile
+  // columns. They return 0 if the list does not exist.
   std::uint32_t tile_px() const { return tile_px_; }
   std::uint32_t columns() const { return columns_; }
   std::uint32_t first_tile() const { return reaching_.first_tile; }
@@ -80,9 +80,10 @@ class FrameCasters {
   std::uint32_t caster_count_ = 0, tile_px_ = 32, columns_ = 0, light_columns_ = 0, first_shade_ = 0;
 };
 
-// Returns a half angle, in radians. Occluders outside this angle do not affect the light of a cone. Each part
-// of a cone replaces a thin capsule by a rectangle. The corners of the rectangle extend beyond the round ends
-// of the capsule by less than a third of a part. `slope` is the slope of the parts.
+// Returns the half angle, in radians, of the region around a light cone in which occluders can affect the
+// cone's light. It is larger than the cone, because each part of the cone replaces a thin capsule by a
+// rectangle. The corners of this rectangle extend beyond the capsule's round ends by less than a third of a
+// part. `slope` is the slope of the parts.
 float angle_round(const LightCone& cone, float slope);
 
 }  // namespace nook::gl

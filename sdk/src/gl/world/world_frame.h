@@ -20,8 +20,8 @@ struct ReachingGroup {
   float radius = 0;    // radius of a sphere around the casters
   float reach = 0;     // metres from the centre; points beyond it are not darkened
   float strength = 0;  // square metres; see caster_strength
-  // In square metres. At the distance d, the casters reduce AO by at most cutoff_error * strength_over_cutoff
-  // / d^2.
+  // strength_over_cutoff is in square metres. At the distance d, the casters reduce AO by at most
+  // cutoff_error * strength_over_cutoff / d^2.
   float strength_over_cutoff = 0;
   const world::CasterParts* parts = nullptr;  // NULL: one caster
 

@@ -3,7 +3,7 @@
 //   half resolution  host depth -> depth of every fourth pixel; AO by far bodies of fewer still; AO of every
 //                    fourth by near bodies, times that -> upsample and result
 // If compute shaders can write images, both AO stages at half resolution are dispatches. Each group of
-// threads skips the bodies that reach none of the group's surfaces.
+// threads skips the bodies that do not reach any surface of the group's pixels.
 #pragma once
 
 #include <nook/nook_world.h>

@@ -100,8 +100,8 @@ inline Float select(Mask m, Float yes, Float no) {
 inline Float sqrt(Float a) {
   return _mm256_sqrt_ps(a.v);
 }
-// Uses the exact square root. The divider is idle otherwise and works in parallel to the other ports, so this
-// costs less than an estimate with a Newton step.
+// Uses the exact square root. It costs less than an estimate with a Newton step, because it runs on the
+// processor's divider, which is idle otherwise and works in parallel to the other execution ports.
 inline Float sqrt_positive(Float a) {
   return _mm256_sqrt_ps(a.v);
 }

@@ -110,8 +110,8 @@ inline Float power_three_halves(Float a) {
 inline Float rsqrt(Float a) {
   return Float(1.0f) / sqrt(a);
 }
-// Needs one square root and one division. For `a` above 5e25, a^(3/2) overflows to infinity, and the result
-// is 0.
+// Returns scale * a^(-3/2), with one square root and one division. For `a` above 5e25, a^(3/2) overflows to
+// infinity, and the result is 0.
 inline Float rsqrt_cubed(Float a, float scale) {
   return Float(scale) / (a * sqrt(a));
 }
