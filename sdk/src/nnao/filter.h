@@ -21,12 +21,13 @@ struct Neighbours {
   std::array<float, 4> connected{};
 };
 
-// There is an edge if two differences exceed about `tolerance` metres: from the pixel's depth to the
-// neighbour's depth, and to the straight line through the neighbours on both sides.
+// There is an edge between a pixel and its neighbour if two differences both exceed about `tolerance` metres.
+// One is the difference between the two depths. The other is the difference between the pixel's depth and the
+// straight line through the neighbours on both sides.
 Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, float tolerance);
 
-// Returns the normal that the slopes imply. On each axis, the flatter of the two slopes has more weight,
-// because beyond a silhouette depth changes more steeply than on the pixel's own surface.
+// Returns the normal derived from the slopes. On each axis, the flatter of the two slopes gets more weight,
+// because across a silhouette depth changes more steeply than on the pixel's own surface.
 Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours);
 
 // Packs the four values of `connected` into two bits each, which can represent 0, 1/3, 2/3 and 1.
@@ -42,9 +43,9 @@ constexpr float filter_range_sharpness(std::uint32_t taps) {
   return taps < 16 ? 4.0f : taps < 32 ? 5.0f : 8.0f;
 }
 
-// Returns the range sharpness of the filter along either axis. The filter along x reads AO that is not
-// filtered yet and therefore noisier. With nine taps it does not compare AO values at all; with more taps it
-// has half the sharpness.
+// Returns the range sharpness of the filter along either axis. The filter along x reads unfiltered AO, which
+// is noisier. With nine taps it does not compare AO values at all; with more taps, the filter along x has
+// half the sharpness of the filter along y.
 constexpr float filter_range_sharpness(std::uint32_t taps, FilterAxis axis) {
   return axis == FilterAxis::y ? filter_range_sharpness(taps)
          : taps < 16           ? 0
@@ -58,9 +59,9 @@ struct FilterLine {
   std::array<std::uint8_t, 5> edges{};
 };
 
-// Returns the weights with which the five pixels enter the filtered value. The middle pixel has the weight 1.
-// If range_sharpness is 0, the weights are 1, 2, 3, 2, 1 divided by 3, times the connections between each
-// pixel and the middle one.
+// Returns the weights of the five pixels in the filtered value. The middle pixel has the weight 1. If
+// range_sharpness is 0, the weights are 1, 2, 3, 2, 1 divided by 3, times the connections between each pixel
+// and the middle one.
 std::array<float, 5> filter_weights(const FilterLine& line, FilterAxis axis, float range_sharpness);
 
 // Filters AO along an axis at one pixel. Pixels beyond the border have the weight 0.

@@ -18,15 +18,16 @@ struct GivenRadius {
 };
 
 struct FrameRadius {
-  // In metres. A radius given in pixels means the same pixels at every distance: then only the limit in
-  // pixels applies.
+  // The radius in metres. If the host gives the radius in pixels, it covers the same number of pixels at
+  // every distance, and only max_px limits it.
   float metres = 0;
   float max_px = 0;  // at least 1
   bool in_pixels = false;
   float min_px = 0;  // at most max_px; 0: none
 };
 
-// Every radius in metres is smaller. Its product with pixels per metre may be infinite.
+// A radius that is larger than every radius in metres that a host can set. Its product with pixels per metre
+// may be infinite.
 inline constexpr float endless_radius = 1e30f;
 
 inline FrameRadius frame_radius(const GivenRadius& given, float height_px) {
@@ -38,7 +39,7 @@ inline FrameRadius frame_radius(const GivenRadius& given, float height_px) {
   return {metres, max_px, false, std::min(given.min_radius_px, max_px)};
 }
 
-// The share of AO that remains at a depth is per_metre * depth + offset, clamped to [0, 1].
+// At a depth, the darkness (1 - AO) is multiplied by per_metre * depth + offset, clamped to [0, 1].
 struct DistanceFade {
   float per_metre = 0, offset = 1;
   float share(float depth) const { return std::clamp(per_metre * depth + offset, 0.0f, 1.0f); }

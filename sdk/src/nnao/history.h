@@ -10,8 +10,8 @@
 
 namespace nook::nnao {
 
-// The history, which the pass keeps from the earlier frame. It contains depth and, for each pixel, the mean
-// AO and the number of frames in that mean.
+// The history, which the pass keeps from the previous frame. For each pixel, it contains the depth, the mean
+// AO and the number of frames in this mean.
 struct History {
   std::uint32_t width = 0, height = 0;
   ScreenRays rays;
@@ -34,9 +34,9 @@ struct PresentAo {
 // Returns the noise of a pixel in a frame; see frame_noise_step.
 TapNoise noise_of_frame(TapNoise noise, std::uint32_t frame);
 
-// Returns about how far the noise of the taps moves AO away from its mean. This is also the maximum
-// difference between the mean of earlier frames and a pixel's AO; larger differences are clamped. A larger
-// bound would flicker less, but would lose dark lines that are one pixel wide.
+// Returns approximately how far the noise of the taps moves AO away from its mean. The mean of earlier frames
+// is clamped to this distance from the pixel's current AO. With a larger distance, AO would flicker less, but
+// dark lines that are one pixel wide would be lost.
 constexpr float noise_reach(std::uint32_t taps) {
   return taps < 16 ? 0.2f : taps < 32 ? 0.12f : 0.08f;
 }

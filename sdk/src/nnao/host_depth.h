@@ -44,8 +44,8 @@ struct DepthDecode {
 };
 DepthDecode depth_decode(const DepthSource& source);
 
-// Returns the exclusive lower limit for the view depth of a surface. In a perspective, the depth of a surface
-// is positive.
+// Returns the exclusive lower limit for the view depth of a surface. In a perspective projection, the depth
+// of a surface is positive.
 constexpr float min_surface_depth(bool perspective) {
   return perspective ? 0 : -1e15f;
 }
@@ -62,9 +62,9 @@ float view_depth(const DepthDecode& decode, bool perspective, float stored, Pixe
 // descriptor's field.
 void check_normal_matrix(const float (&matrix)[9]);
 
-// The minimum length of a normal. Where a texel is shorter, the host has drawn nothing. The limit for
-// normalised integers is higher: a target that is cleared to 1/2 holds 128 / 255 or 512 / 1023, which decodes
-// to components of 0.004 or 0.001 and a length of 0.007 or 0.002.
+// The minimum length of a normal. If the normal in a texel is shorter, the host has not drawn a normal there.
+// The limit for normalised integers is higher: a target that is cleared to 1/2 holds 128 / 255 or 512 / 1023,
+// which decodes to components of 0.004 or 0.001 and a length of 0.007 or 0.002.
 inline constexpr float shortest_float_normal = 1e-3f, shortest_normalised_normal = 0.25f;
 
 // Returns the mean factor by which a matrix scales lengths: the cube root of its determinant.

@@ -22,7 +22,7 @@ struct SpecularNumbers {
   std::array<float, units> bias{}, out{};
   float out_bias = 0;
 };
-// Returns the weights that the shader uses. `nook train specular` has fitted them.
+// Returns the weights that the shader uses. They are the result of `nook train specular`.
 SpecularNumbers specular_numbers();
 
 // The inputs of the specular occlusion at a pixel. Directions have unit length.

@@ -34,7 +34,7 @@ struct Dense {
 // from the pixel's position p. The tap is projected to the screen, and the depth and normal buffers give the
 // position p_t and the normal n_t there. The input of the tap is
 //   (n_t - n, (p_t.z - p.z) / r) clamp(1 - |p_t - p| / r, 0, 1).
-// The normalisation of inputs by mean and standard deviation is already part of the filters and the bias. If
+// The filters and the bias already include the normalisation of the inputs by mean and standard deviation. If
 // only n taps of the grid are used, the sum over taps is multiplied by grid_size^2 / n. taps.h computes the
 // positions of the taps.
 struct PaperNetwork {
@@ -87,15 +87,16 @@ struct ThresholdDense {
 // pixel from the border of the screen in radii, at most 1. AO is
 //   1 - min(-dot(out, join), bound),
 // where bound is NOOK_HORIZON_BOUND times the mean over directions of the greatest max(s w, 0) of a
-// direction. So a pixel stays open unless a tap is both near and above the pixel's plane, whatever lies
-// behind a silhouette. The layer `bent` has the same input and gate as `direction`, and two outputs (p, q)
-// for each direction. The bent normal is the cosine-weighted mean of the open directions, and points along
+// direction. So a pixel stays open unless some tap is both near the pixel and above its plane. Surfaces far
+// behind a silhouette do not darken the pixel. The layer `bent` has the same input and gate as `direction`,
+// and two outputs (p, q) for each direction. The bent normal is the cosine-weighted mean of the open
+// directions, and points along
 //   n + mean over directions of (p t + q o).
 // The tap layer has thresholds; the other layers have no bias. If every tap lies below the pixel's plane or
 // only slightly above it, all units are 0 and AO is 1. So a plane is fully open from every viewing angle, up
 // to the border of the screen, even if depth and normals are rounded.
 struct HorizonNetwork {
-  static constexpr int revision = 8;  // raise it when the meaning of the weights changes
+  static constexpr int revision = 8;  // increment it when the meaning of the weights changes
   static constexpr int tap_inputs = NOOK_HORIZON_TAP_INPUTS;
   static constexpr int units = NOOK_HORIZON_UNITS;
 

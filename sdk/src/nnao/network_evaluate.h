@@ -121,7 +121,7 @@ struct Openness {
 Openness evaluate_openness(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                            std::uint32_t x, std::uint32_t y, TapNoise noise);
 
-// Returns the AO of evaluate_openness.
+// Returns Openness::ao of evaluate_openness.
 float evaluate_unclamped(const Network& network, const View& view, Vec3 normal, const Sampling& sampling,
                          std::uint32_t x, std::uint32_t y, TapNoise noise);
 

@@ -7,7 +7,7 @@
 //   DPTH  depth, one value for each pixel, as write_exact of exact_packing.h stores them
 //   NORM  normals, three values for each pixel, stored like DPTH; only if the frame has normals
 //   LAYR  the host's layer, two values for each pixel, stored like DPTH; only if there is one
-//   AOCC  AO, one value for each pixel, stored like DPTH; only if it was computed
+//   AOCC  AO, one value for each pixel, stored like DPTH; only if the recording has AO
 //   NETW  the file of the network; may be empty
 //   TEXT  vendor, renderer, driver_version, note: for each, u32 number of bytes, then UTF-8
 #pragma once

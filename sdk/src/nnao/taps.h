@@ -12,15 +12,15 @@
 
 namespace nook::nnao {
 
-// Two values in (0, 1) that vary the taps from pixel to pixel. Each takes 9 evenly spaced values over a block
-// of 3 x 3 pixels. Together they form the Hammersley set in base 3. The filter gives all nine values the same
-// total weight.
+// Two values in (0, 1) that vary the taps from pixel to pixel. Over a block of 3 x 3 pixels, each value takes
+// 9 evenly spaced steps. Together, the pairs form the Hammersley set in base 3. The filter gives all nine
+// values the same total weight.
 struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };
 
-// Returns by how much the noise is shifted in a frame. The shifts are M. Roberts' sequence R2. They give a
-// mean over several frames more directions and distances.
+// Returns the offset that is added to the noise in a frame. The offsets are M. Roberts' sequence R2. Because
+// of them, a mean over several frames uses more directions and distances.
 inline TapNoise frame_noise_step(std::uint32_t frame) {
   constexpr double rotation = 0.7548776662466927, offset = 0.5698402909980532;
   return {float(std::fmod(rotation * frame, 1.0)), float(std::fmod(offset * frame, 1.0))};
@@ -92,8 +92,8 @@ inline TapOffset horizon_tap(float cosine, float sine, float distance_px, PixelS
   return {cosine * scale.x * per_y, sine * scale.y * per_y};
 }
 
-// Returns the grid cell of tap index `tap` if only `taps` cells of the paper's grid are used. These are every
-// (grid_size^2 / taps)-th cell in raster order.
+// Returns the grid cell of tap index `tap` if only `taps` cells of the paper's grid are used. The used cells
+// are every (grid_size^2 / taps)-th cell in raster order.
 constexpr std::uint32_t paper_tap_cell(std::uint32_t tap, std::uint32_t taps, TapNoise noise) {
   constexpr std::uint32_t cells = PaperNetwork::grid_size * PaperNetwork::grid_size;
   return std::min(std::uint32_t((float(tap) + noise.rotation) * (float(cells) / float(taps))), cells - 1);

@@ -12,8 +12,8 @@
 namespace nook::probe {
 
 // Fill `axes` with H. Vogel's spiral. Successive azimuths differ by the golden angle, and heights are at the
-// centres of zones of equal area. The spiral covers the whole sphere around +z, or the hemisphere around
-// `up`.
+// centres of zones of equal area. vogel_sphere covers the whole sphere around +z. vogel_hemisphere covers the
+// hemisphere around `up`.
 void vogel_sphere(std::span<Vec3> axes);
 void vogel_hemisphere(Vec3 up, std::span<Vec3> axes);
 
@@ -40,14 +40,14 @@ inline constexpr std::array<Vec3, 12> dice_axes{{{0, dice_short, dice_long},
                                                  {dice_short, -dice_long, 0},
                                                  {-dice_short, -dice_long, 0}}};
 
-// c = max(dot(vertex, s), 0).
+// Returns the value of the basis function in the direction s, where c = max(dot(vertex, s), 0).
 template <std::floating_point T>
 constexpr T dice_radiance(T c) {
   return c * c * (T(0.35) + T(0.25) * c * c);
 }
 
-// Returns the irradiance that the function causes on a surface. c, in [-1, 1], is the cosine between the
-// surface's normal and the vertex. The result is exact, because only bands 0, 1, 2 and 4 of the clamped
+// Returns the irradiance that the basis function causes on a surface. c, in [-1, 1], is the cosine between
+// the surface's normal and the vertex. The result is exact, because only bands 0, 1, 2 and 4 of the clamped
 // cosine contribute.
 template <std::floating_point T>
 constexpr T dice_irradiance(T c) {

@@ -2,19 +2,20 @@
 // every method, you can add samples, read coefficients at any time, and merge fits.
 //
 // The fast step of running averages is recursive least squares, applied to blocks of samples. From the
-// samples before a block, it keeps only the coefficients b and the total weight W. It assumes that the
-// normalised Gram matrix of these samples is G / a, where G is the Gram matrix over the domain and a is the
-// domain's area. For the block itself, it has the sums S (products of functions) and m (functions times
-// radiance):
+// samples before a block, the fit keeps only the coefficients b and the total weight W. The fit assumes that
+// the normalised Gram matrix of these samples is G / a, where G is the Gram matrix over the domain and a is
+// the domain's area. For the block itself, the fit sums S (products of functions) and m (functions times
+// radiance), and solves
 //   (W G / a + S) (b' - b) = m - S b.
 // Each block solves one linear system, and no sample can make the result overshoot. The errors converge to
 // the errors of batch least squares; docs/probes.md has measurements. The plain step, as published, divides
-// only by the mean square of each function. If functions overlap, the initial value is forgotten slowly:
-// along the slowest direction, its share decreases only as n^-p with p below 1/2.
+// only by the mean square of each function. If functions overlap, the plain step forgets the initial value
+// slowly. Along the slowest direction, the weight of the initial value decreases only as n^-p with p below
+// 1/2.
 //
 // The sums over a chunk of samples are floats, and a nearly singular Gram matrix would magnify their rounding
-// errors. If functions are that similar, the sums use the orthonormal functions u = sqrt(a) L^-1 B instead,
-// where G = L L^T.
+// errors. If functions are so similar that this would happen, the sums use the orthonormal functions u =
+// sqrt(a) L^-1 B instead, where G = L L^T.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -61,9 +62,10 @@ constexpr bool is_running(FitMethod method) {
          method == FitMethod::running_average_non_negative;
 }
 
-// Weights should be 1 on average. The total weight is raised to the number of samples, but at most to this
-// limit, if it is lower. The reason: importance sampling by luminance can yield a sample with a tiny weight
-// and a huge radiance. If it came first, a running average would need thousands of samples to forget it.
+// Weights should be 1 on average. If the total weight is lower than the number of samples, it is raised to
+// this number, but at most to this limit. The reason is that importance sampling by luminance can yield a
+// sample with a tiny weight and a huge radiance. If this sample came first, a running average would need
+// thousands of samples to forget it.
 inline constexpr double first_weight = 256;
 
 // Returns true if coefficients are constrained to the light's bands 0 to 2 (fit_bands.h). This applies to
@@ -94,14 +96,14 @@ struct SampleCounts {
 
 class Fit {
  public:
-  // Throws what check_basis throws, and the same failure if several functions are linearly dependent. Throws
+  // Throws Failure if check_basis rejects the basis, or if several functions are linearly dependent. Throws
   // UNSUPPORTED if the processor does not have the chosen instruction set.
   Fit(const Basis& basis, const FitSettings& settings, Memory* memory = default_memory());
 
   // `directions` and `radiance` have three floats per sample. If `weights` is null, all weights are 1.
   // Allocates nothing. The result is bit-identical regardless of how the samples are split into calls. A call
-  // with few samples only copies them. They are checked and counted later, when a group is full or when a
-  // result is needed.
+  // with few samples only copies them. The samples are checked and counted later, when a group is full or
+  // when a result is needed.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count);
   // Initialises a running average with the result of `short_run`, weighted by its total weight. The running
   // average must not have samples yet. seed and merge throw INVALID_ARGUMENT if the other fit has a different
@@ -136,7 +138,7 @@ class Fit {
     SampleCounts counts;
   };
 
-  // Memory for `present` to write to. It may belong to another fit with the same basis and settings.
+  // The memory that `present` writes to. It may belong to another fit with the same basis and settings.
   struct Room {
     double* state;
     double* solver;
@@ -195,7 +197,7 @@ class Fit {
   std::uint32_t open_ = 0;     // samples in the current block so far
   double closed_weight_ = 0;   // of the samples before the block
   LobeSoa lobes_;
-  RunningView running_;  // constants alone
+  RunningView running_;  // without coefficients, only its constants
   const float* whitening_ = nullptr;
   AlignedArray<RecentSamples> recent_;   // one
   AlignedArray<SampleColumns> samples_;  // one: the samples that wait

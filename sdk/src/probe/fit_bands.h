@@ -16,9 +16,9 @@ inline constexpr std::uint32_t band_stride = 16;    // band_functions padded to 
 
 // Weights of the constraint on the light's bands; see meet_bands.
 inline constexpr double exact_bands = 1e6;  // the bands match to 1e-5 of the light or better
-// For coefficients that must not be negative, and for lobes that end at a horizon. There, an exact match does
-// not exist, or it makes the fit bad. A larger weight would hardly improve irradiance, and would make
-// radiance worse.
+// The weight for coefficients that must not be negative, and for lobes that end at a horizon. In these cases,
+// an exact match does not exist or makes the fit bad. A larger weight would hardly improve irradiance, and
+// would make radiance worse.
 inline constexpr double soft_bands = 100;
 
 // The basis functions and the light, projected onto the harmonics. The unit is steradians times the unit of

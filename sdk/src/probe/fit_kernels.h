@@ -50,8 +50,8 @@ struct LobeSoa {
   std::uint32_t padded = 0;
 };
 
-// A running average as the plain and the original step read it. A float sum would lose small changes, so
-// `change` collects the changes during a chunk, and the owner adds them to its coefficients in double
+// A running average as the plain and the original step read it. A float sum would lose small changes. So
+// `change` collects the changes of a chunk, and the fit then adds them to its coefficients in double
 // precision.
 struct RunningView {
   std::uint32_t count = 0;
@@ -83,8 +83,8 @@ struct FitKernels {
                              const float* up, std::uint32_t count, SampleColumns& samples,
                              std::uint32_t first);
 
-  // Adds to four sums: sums[0] += w and sums[1 + c] += w v_c. The sum over the samples of one call is a
-  // float.
+  // For each sample with weight w and radiance v, does sums[0] += w, and sums[1 + c] += w v_c for each
+  // channel c. The samples of one call are summed in float precision.
   void (*sum_light)(const SampleColumns& samples, std::uint32_t count, double* sums);
 
   // Writes the square root of each weight to `scale`, and the radiance times this square root to `light`, as

@@ -34,7 +34,7 @@ struct SurfaceView {
   float stretched_y;
   float alpha2_in_plane;     // squared width of slopes within the plane
   float alpha2_across;       // squared width of slopes across the plane
-  float openness;            // facing / sqrt(facing^2 + (slopes towards the eye)^2): 0 where masked, 1 open
+  float openness;            // facing / sqrt(facing^2 + (slopes towards the eye)^2): 0: masked, 1: open
   float roughness_in_plane;  // square root of the isotropic alpha with the same tilt
 };
 SurfaceView view_of(const Surface& surface);
@@ -49,10 +49,10 @@ float directional_albedo(const SurfaceView& view, const Surface& surface);
 // distributed (E. Heitz, Sampling the GGX Distribution of Visible Normals, 2018). The mapping depends on both
 // widths and on the view. The normal represents all normals near it.
 struct VisibleNormal {
-  float across, along;  // at right angles to the plane of incidence, among round slopes, and within it
-  float share;          // of the disc, relative to the others'
-  float sharpness;      // of the lobe that the normals around it reflect, divided by the density of
-                        // directions there
+  float across, along;  // coordinates in the disc, across and along the plane of incidence
+  float share;          // area of the disc that the normal represents, relative to the other normals
+  float sharpness;  // sharpness of the lobe that the normals around this one reflect, divided by the density
+                    // of directions there
 };
 // middle_normal returns the normal for a single lobe. visible_normals returns four normals for four lobes:
 // two in the plane of incidence, and one on each side of it.

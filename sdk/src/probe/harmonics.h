@@ -63,8 +63,8 @@ inline constexpr double cosine_band[5] = {3.141592653589793, 2.0943951023931953,
 
 inline constexpr std::size_t zonal_count = 5;  // coefficients: bands 0 and 1, then the zonal one
 
-// harmonics: nine coefficients of bands 0 to 2. The zonal coefficient of band 2 is a projection, which has
-// the smallest squared error.
+// `harmonics` holds the nine coefficients of bands 0 to 2. The zonal coefficient is the projection of band 2,
+// which has the smallest squared error.
 std::array<Vec3, zonal_count> to_zonal(std::span<const Vec3> harmonics);
 
 Vec3 zonal_radiance(std::span<const Vec3> zonal, Vec3 direction);

@@ -26,24 +26,24 @@ Vec3 radiance(const Basis& basis, std::span<const Vec3> coefficients, Vec3 direc
 Vec3 irradiance(const Basis& basis, std::span<const Vec3> coefficients, IrradianceForm form, Vec3 normal);
 
 // Glossy reflection of lobes. The directions from which a GGX surface reflects light to the eye are
-// approximated by lobes. Their integrals sum to 1, and they are multiplied by the surface's directional
-// albedo. The integral of the product with a light's lobe has a closed form.
+// approximated by lobes. The integrals of these lobes sum to 1, and the lobes are multiplied by the surface's
+// directional albedo. The integral of such a lobe times a lobe of the light has a closed form.
 
 enum class SpecularForm : std::uint8_t {
   isotropic = 0,   // one lobe, after J. Wang et al., All-Frequency Rendering, 2009
   anisotropic = 1  // four
 };
 
-// Returns the lobe of directions that a surface with the mean of both widths reflects to the eye. In the
-// paper, the lobe is the distribution of normals, warped around the mirror direction. Here, the lobe's axis
-// is the centre of the directions that the eye sees instead. The two differ near the horizon, where a rough
-// surface reflects light from far above the mirror direction.
+// Returns one lobe for the directions from which a surface reflects light to the eye. It uses the mean of
+// both widths. In the paper, this lobe is the distribution of normals, warped around the mirror direction. In
+// this function, the axis of the lobe is the mean of the reflected directions instead. The two axes differ
+// near the horizon, where a rough surface reflects light from far above the mirror direction.
 SphericalGaussian reflected_lobe(const Surface& surface);
 // Returns four lobes. Together they can represent reflections that are stretched, near the horizon or because
 // the two widths differ.
 std::array<SphericalGaussian, 4> reflected_lobes(const Surface& surface);
 
-// Returns the radiance that leaves towards the eye.
+// Returns the radiance that the surface reflects to the eye.
 Vec3 specular(std::span<const SphericalGaussian> lights, SpecularForm form, const Surface& surface);
 
 }  // namespace nook::probe

@@ -7,7 +7,7 @@
 
 namespace nook::probe {
 
-// Returns the cosine of an angle in [0, pi], with an error below 1e-9. It provides the initial value of an
+// Returns the cosine of an angle in [0, pi], with an error below 1e-9. It is the initial value of an
 // iteration. std::cos cannot be used because it is not constexpr.
 constexpr double starting_cosine(double angle) {
   double term = 1, sum = 1;

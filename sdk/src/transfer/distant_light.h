@@ -1,5 +1,5 @@
-// Radiance transfer represents distant light by lobes, by spherical-harmonic bands, and by the cells of a
-// cube. Lobes are fitted to the cells.
+// The three representations of distant light in radiance transfer: lobes, spherical-harmonic bands, and the
+// cells of a cube. Lobes are fitted to the cells.
 #pragma once
 
 #include <array>
@@ -65,8 +65,8 @@ struct CubeCells {
   std::size_t size() const { return direction.size(); }
 };
 
-// Returns the mean radiance of each cell over the texels of the map that lie in the cell. If no texel lies in
-// a cell, because the map has too few texels, the nearest texel is used.
+// Returns the mean radiance of each cell over the texels of the map that lie in the cell. If the map is so
+// small that no texel lies in a cell, the cell gets the nearest texel.
 Vector<Vec3> cell_means(const MapView& map, const CubeCells& cells, Memory* memory);
 
 }  // namespace nook::transfer

@@ -59,8 +59,8 @@ class FitCache {
   FitCache(const FitCache&) = delete;
   FitCache& operator=(const FitCache&) = delete;
 
-  // Returns the fit for a number of lobes, and makes it on the first call. If two threads need it at the same
-  // time, both make it, and one result is discarded. There is no lock, because some builds have no thread
+  // Returns the fit for a number of lobes. The first call creates this fit. If two threads create it at the
+  // same time, one of the two results is discarded. There is no lock, because some builds have no thread
   // library.
   const LobeFit& of(std::uint32_t lobes);
 

@@ -1,8 +1,9 @@
 // The response of a material to a lobe from any direction of tangent space,
 //   P[c, a](d) = integral of exp(sharpness (dot(d, s) - 1)) phi[c, a](s) over the upper hemisphere,
 // on a square grid of the equal-area map p = d.xy / sqrt(1 + d.z), in which the hemisphere is the unit disc.
-// Between nodes, the response is interpolated bilinearly. The values at the nodes are not samples: they
-// minimise the squared error over a finer grid, so that the interpolation does not blur.
+// Between nodes, the response is interpolated bilinearly. The values at the nodes are not samples of P. They
+// minimise the squared error of the interpolation over a finer grid, so that the interpolation does not blur
+// P.
 #pragma once
 
 #include <cstdint>

@@ -54,9 +54,9 @@ struct VectorKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
   // Computes the vectors of a block. Each lobe adds its light, times its share, to the four nodes around its
-  // position in the response's grid. The sums are then the weights of the table's rows. So a vertex costs
-  // `lobes` updates of four nodes and a single product with the table. Looking up every lobe in the table
-  // would cost a product with four rows per lobe.
+  // position in the response's grid. The sums are then the weights of the table's rows. So a vertex needs
+  // `lobes` updates of four nodes, and a single product with the table. The alternative, looking up every
+  // lobe in the table, would need a product with four rows for each lobe.
   void (*vectors)(const LightView& light, const VertexBlock& block);
 };
 

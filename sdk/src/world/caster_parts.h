@@ -1,5 +1,5 @@
 // Splits a body into parts, such as limbs. Also merges the casters of a part or of a whole body into one
-// capsule, which replaces them at a distance.
+// capsule. At a distance, this capsule replaces the casters.
 #pragma once
 
 #include <array>

@@ -4,12 +4,12 @@
 // The cone is divided into `cone_parts` smaller cones (parts) of equal solid angle, whose axes lie on two
 // rings. Consider the plane at unit distance that is perpendicular to the axis of a part, in units of the
 // part's radius. In this plane, the part is the unit disc, and a capsule is the convex hull of two discs. If
-// the capsule is wider than the part, it is treated as the half-plane beyond a line that is as far away as
-// the capsule's round edge. If the capsule is narrower, it is treated as a rectangle of the same area, and
-// its share is the product of the shares along and across it. In each part, the open shares of all capsules
-// are multiplied together, as if the capsules covered the part independently. The open share of the cone is
-// the mean over its parts. So the shares of capsules that cover different parts add up, and capsules that
-// fully cover the same part do not darken it twice.
+// the capsule is wider than the part, it is treated as a half-plane. The border of this half-plane is as far
+// from the part's axis as the capsule's round edge. If the capsule is narrower, it is treated as a rectangle
+// of the same area, and its share is the product of the shares along and across it. In each part, the open
+// shares of all capsules are multiplied together, as if the capsules covered the part independently. The open
+// share of the cone is the mean over its parts. So the shares of capsules that cover different parts add up.
+// Capsules that fully cover the same part do not darken it twice.
 #pragma once
 
 #include <cmath>
@@ -68,8 +68,8 @@ F part_coverage(const CapsuleLanes<F>& c, F lx, F ly, F lz, F slope) {
   const F one(1.0f), zero(0.0f);
   const F depth_a = fma(c.ax, lx, fma(c.ay, ly, c.az * lz)),
           depth_b = fma(c.bx, lx, fma(c.by, ly, c.bz * lz));
-  // Cuts off the part of the capsule that is behind the receiver. The cut is so close to the receiver's plane
-  // that the remaining capsule still appears to end far to the side.
+  // Cuts off the part of the capsule that is behind the receiver. The cut is very close to the plane through
+  // the receiver. So the end of the remaining capsule still appears far to the side.
   const F deepest = max(depth_a, depth_b);
   const F least = F(0.02f) * deepest;
   const F da = max(depth_a, least), db = max(depth_b, least);

@@ -14,10 +14,11 @@
 // dot(n, Phi) is the form factor, exact where the capsule is above the horizon. If one disc hides the other,
 // clamping the cosines to [-1, 1] gives the larger disc's form factor.
 //
-// On the surface of a capsule, the region is a half-space. A point inside uses the half-space of the nearest
-// surface, so that the share is continuous. If the sphere of an end contains the point, the sine of this end
-// is limited to just below 1. Inside the round wall, no great circle touches both ends and gamma^2 would be
-// negative. There Phi is the unit vector towards the axis, (alpha u + beta v) / sqrt(alpha s_u + beta s_v).
+// On the surface of a capsule, the region is a half-space. A point inside a capsule uses the half-space of
+// the nearest point of the surface, so that the share is continuous. If the sphere of an end contains the
+// point, the sine of this end is limited to just below 1. Inside the round wall, no great circle touches both
+// ends and gamma^2 would be negative. There Phi is the unit vector towards the axis, (alpha u + beta v) /
+// sqrt(alpha s_u + beta s_v).
 #pragma once
 
 #include "sdk/src/core/light_bands.h"

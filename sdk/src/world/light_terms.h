@@ -1,11 +1,12 @@
-// Bands 0 to 4 of light that is a sum of lobes, and bands 0 to 4 of densities over directions. Both are
-// stored as factors of 25 harmonic polynomials. Densities are summed first and then combined with the light.
-// The mean of the light under a density around d is the sum over the bands l of A_l times the light's band at
-// d. A_l is the mean of the Legendre polynomial of l under the density.
+// Bands 0 to 4 of light that is a sum of lobes, and bands 0 to 4 of densities over directions. The bands of
+// light and of densities are stored as factors of 25 harmonic polynomials. Densities are summed first and
+// then combined with the light. The mean of the light under a density around d is the sum over the bands l of
+// A_l times the light's band at d. A_l is the mean of the Legendre polynomial of l under the density.
 //
 // The polynomials are spherical harmonics without their normalisation factors. The terms of the light contain
-// these factors. Bands 3 and 4 are only used if there are enough lobes. With fewer lobes, they would describe
-// the shape of the lobes instead of the light. They are weighted by 0.8 and 0.6 to reduce ringing.
+// these factors. Bands 3 and 4 are only used if there are enough lobes. With fewer lobes, bands 3 and 4 would
+// describe the shape of the lobes instead of the light. Band 3 is weighted by 0.8 and band 4 by 0.6, to
+// reduce ringing.
 #pragma once
 
 #include <span>

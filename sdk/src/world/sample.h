@@ -33,8 +33,8 @@ struct SampleRequest {
   std::uint32_t count = 0;
   std::size_t stride = 3;             // distance between points in floats, in both arrays
   const LightTerms* terms = nullptr;  // the light for the coloured result; NULL: no coloured result
-  float cutoff_error = 0;             // in AO; groups that reduce the AO of a block of points by less are
-                                      // skipped there
+  float cutoff_error =
+      0;  // in AO; a group is skipped for a block of points if it reduces their AO by less than this
   bool has_light = false;
   Vec3 light_axis;  // unit vector towards the light
   float light_half_angle_radians = 0;

@@ -1,6 +1,6 @@
-// For each tile of the screen, lists the bodies that may darken surfaces in the tile. The depth of the
-// surfaces is not considered: a body is in the list of every tile that the sphere of the body's reach covers
-// on the screen.
+// For each tile of the screen, lists the bodies that may darken surfaces in the tile. The lists do not depend
+// on the depth of the surfaces. A body is in the list of every tile that the sphere of the body's reach
+// covers on the screen.
 #pragma once
 
 #include <cstdint>

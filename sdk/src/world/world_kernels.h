@@ -1,6 +1,7 @@
-// Kernels that compute the share that casters leave open at many points, as a table of plain functions for
-// each instruction set. The caller owns the arrays of points. They must be padded to a multiple of simd_width
-// with finite values. The functions do not allocate, lock or throw.
+// Kernels that compute, at many points, the fraction of the hemisphere or of a light cone that casters leave
+// open. There is a table of plain functions for each instruction set. The caller owns the arrays of points.
+// They must be padded to a multiple of simd_width with finite values. The functions do not allocate, lock or
+// throw.
 #pragma once
 
 #include <cstdint>
@@ -32,7 +33,7 @@ struct WorldKernels {
   // open[i] *= the product over the casters of 1 - coverage.
   void (*open_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                           float* open);
-  // The same, but also adds each caster to the terms.
+  // Like open_hemisphere, but also adds each caster to the terms.
   void (*gather_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                             float* open, const GatheredSoa& gathered);
   // Writes the open share of the light for each channel. `open` is the AO.

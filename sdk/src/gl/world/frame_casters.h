@@ -36,8 +36,8 @@ class FrameCasters {
   // Returns true if some body may be farther away than its merging distance.
   bool far() const { return far_; }
 
-  // The functions below return the position of each list in the table, in texels, and its number of tile
-  // columns. They return 0 if the list does not exist.
+  // The functions below describe the lists in the table: the size of a tile in pixels, the numbers of tile
+  // columns, and the position of each list in texels. A value is 0 if its list does not exist.
   std::uint32_t tile_px() const { return tile_px_; }
   std::uint32_t columns() const { return columns_; }
   std::uint32_t first_tile() const { return reaching_.first_tile; }
