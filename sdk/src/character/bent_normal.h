@@ -1,7 +1,7 @@
 // Bent normals from occluded directions. The occluded direction of a point is the mean direction over its
-// cosine-weighted hemisphere, in which open directions count as zero. It is 0 if everything is open, and 2/3
-// of the normal if nothing is open. The bent normal is the direction of 2/3 of the normal minus the occluded
-// direction.
+// cosine-weighted hemisphere, in which open directions count as zero. If everything is open, the occluded
+// direction is 0. If nothing is open, it is 2/3 of the normal. The bent normal is the direction of 2/3 of the
+// normal minus the occluded direction.
 #pragma once
 
 #include <cmath>
@@ -11,8 +11,8 @@
 
 namespace nook {
 
-// The occluded direction of a vertex depends linearly on its AO. These are the directions at AO 0 and at AO
-// 1. Skinning rotates them like the normal.
+// The occluded direction of a vertex depends linearly on its AO. This struct holds the occluded directions at
+// AO 0 and at AO 1. Skinning rotates them like the normal.
 struct OccludedEnds {
   Vec3 dark;  // at AO 0
   Vec3 open;  // at AO 1

@@ -13,7 +13,7 @@ struct GpuPose {
   float largest_scale = 1;  // largest scale of the bones
 };
 
-// A bit of InstanceInput::reported, in addition to the topics of PoseNotes. It is set once the log has
+// A bit of InstanceInput::reported, in addition to the topics of PoseNotes. The bit is set after the log has
 // reported that the instance does not darken the world.
 inline constexpr std::uint32_t topic_no_world_casters = 8;
 

@@ -64,7 +64,7 @@ void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t fir
                float* ao) noexcept;
 
 // Returns the matrix of a bone in a mix of frames: the place times the map from rest space to the clip's
-// space. It is projected to the nearest rotation with one scale. Neither allocates nor throws.
+// space. The matrix is projected to the nearest rotation with one scale. Neither allocates nor throws.
 Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place, std::size_t bone) noexcept;
 
 // Returns a bound of the pose in a mix of frames, in the clip's space and in constant time. In a frame it is

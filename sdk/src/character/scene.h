@@ -172,8 +172,8 @@ struct InstancePlan {
 struct InstanceResult {
   InstanceArrays arrays;
   std::uint64_t transformed_revision = 0;  // pose_revision for which the spheres in `arrays` were computed
-  std::uint64_t coarse_revision = 0;       // the same for the coarse spheres
-  std::uint64_t grouped_revision = 0;      // the same for the groups
+  std::uint64_t coarse_revision = 0;       // pose_revision of the coarse spheres
+  std::uint64_t grouped_revision = 0;      // pose_revision of the groups
   Receiver receiver;                       // made from the surface positions of the key points; only valid if
                                            // casters may be grouped
   std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never

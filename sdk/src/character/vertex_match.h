@@ -1,7 +1,7 @@
 // Finds the matching model vertex for each vertex of a host's mesh.
 //
 // Several vertices of a model can lie at one place: where two primitives meet, on the two sides of a card, or
-// in layers of hair. The function then chooses the best match by these criteria, the most important first:
+// in layers of hair. The function then chooses the best match. The criteria, the most important first, are:
 //   place, equal weights, side of the triangles or of the normal, near weights, normal, order of the host's
 //   vertices.
 #pragma once
@@ -26,8 +26,8 @@ struct VertexMatches {
 };
 
 // Writes the file vertex of each host vertex, or no_vertex. The model must have a rest surface and bind data,
-// and the primitive must belong to it. The time is about O(n log n) for n vertices. It is longer for models
-// with many vertices at one place.
+// and the primitive must belong to it. The time is about O(n log n) for n vertices. Models with many vertices
+// at one place take longer.
 VertexMatches match_vertices(const CharacterModel& model, const HostVertices& host,
                              std::span<std::uint32_t> file_vertices, Memory* memory);
 

@@ -62,8 +62,8 @@ struct MapSun {
   float disc_solid_angle = 0;
 };
 
-// Returns the luminance above which texels belong to suns. It is sun_ratio times the mean luminance of all
-// light below this limit.
+// Returns the luminance above which texels belong to suns. The limit is sun_ratio times the mean luminance of
+// all light below this limit.
 double sun_limit(const MapView& map, Memory* memory);
 
 // Returns the part of a texel that does not belong to a sun. It has the colour of the texel, but its

@@ -130,8 +130,9 @@ inline SphericalGaussian convolution(const SphericalGaussian& a, const Spherical
 }
 
 // Returns the factors by which convolution with a lobe of integral 1 scales bands 0 to 4 of a function on the
-// sphere. They are the ratios i_l / i_0 of the modified spherical Bessel functions. Their upward recurrence
-// loses digits for small sharpness. The continued fraction of i_(l+1) / i_l, which is used here, does not.
+// sphere. The factors are the ratios i_l / i_0 of the modified spherical Bessel functions. The upward
+// recurrence of these functions loses digits for small sharpness. So this function uses the continued
+// fraction of i_(l+1) / i_l, which does not lose digits.
 template <std::floating_point T>
 std::array<T, 5> gaussian_bands(T sharpness) {
   std::array<T, 5> band{1, 1 - gaussian_spread(sharpness)};

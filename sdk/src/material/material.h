@@ -61,13 +61,13 @@ struct ClusteredTensor {
 enum class VisibilityForm : std::uint32_t {
   none = 0,    // there is no VOTF; the surface is visible everywhere
   binary = 1,  // 1 where the view meets the meso-structure, 0 where it passes through
-  // Signed distance to the boundary of the binary mask, scaled to [-1, 1]. It is positive where the view
-  // meets the structure.
+  // Signed distance to the boundary of the binary mask, scaled to [-1, 1]. The distance is positive where the
+  // view meets the structure.
   distance = 2,
 };
 
-// The visibility mapping, equation (26). It is 1 if the value is at least `threshold`, weight * value if the
-// value is between 0 and `threshold`, and 0 if the value is negative.
+// The visibility mapping, equation (26). The visibility is 1 if the value is at least `threshold`, weight *
+// value if the value is between 0 and `threshold`, and 0 if the value is negative.
 struct VisibilityMapping {
   float threshold = 0;
   float weight = 0;

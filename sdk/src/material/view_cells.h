@@ -26,8 +26,8 @@ struct ViewCells {
   Vector<std::uint8_t> neighbours;
 };
 
-// Returns the number of terms of a cell. It is K if the tensor has a map, otherwise min(3 K, C): 1 for N-SVD,
-// and up to 3 for CTA.
+// Returns the number of terms of a cell. If the tensor has a map, this is K. Otherwise it is min(3 K, C): 1
+// for N-SVD, and up to 3 for CTA.
 std::uint32_t cell_terms(const ClusteredTensor& tensor);
 
 // The result has as many cells as the tensor's map, or side x side cells if the tensor has no map.

@@ -1,6 +1,6 @@
-// Evaluates a network on the CPU, one pixel at a time. The result is raw AO, before the filter. It is the
-// reference for tests of the OpenGL pass and for the errors that the training reports. View space is the same
-// as in OpenGL. Row 0 is at the bottom.
+// Evaluates a network on the CPU, one pixel at a time. The result is raw AO, before the filter. Tests of the
+// OpenGL pass compare with this evaluation, and the training reports its errors. View space is the same as in
+// OpenGL. Row 0 is at the bottom.
 #pragma once
 
 #include <algorithm>
@@ -51,8 +51,8 @@ struct View {
   std::size_t at(std::uint32_t x, std::uint32_t y) const { return std::size_t(y) * width + x; }
 };
 
-// The depth, in metres, at which the sky is treated as a surface. It is far beyond any radius, and its square
-// does not overflow a float.
+// The depth, in metres, at which the sky is treated as a surface. This depth is far beyond any radius, and
+// its square does not overflow a float.
 inline constexpr float sky_depth = 1e15f;
 
 // Returns the depth of a pixel. Coordinates outside the screen are clamped to the nearest pixel.

@@ -111,11 +111,11 @@ struct RecordedNetwork {
 };
 RecordedNetwork recorded_network(const Recording& recording);
 
-// Returns the view depths of a recording in metres. They are infinite where there is no surface.
+// Returns the view depths of a recording in metres. The depth of a pixel without a surface is infinite.
 std::vector<float> view_depths(const Recording& recording);
 
-// Returns the normals that the network uses at full resolution, in view space. They are the host's normals,
-// or derived from depth where the host has none. Where there is no surface, they are {0, 0, 1}.
+// Returns the normals that the network uses at full resolution, in view space. Where the host has no normal,
+// the normal is derived from depth. Where there is no surface, the normal is {0, 0, 1}.
 std::vector<Vec3> view_normals(const Recording& recording, std::span<const float> depths);
 
 }  // namespace nook::nnao

@@ -1,7 +1,6 @@
 // Computes the positions of a pixel's taps. The functions depend only on the pixel and the radius, and are
-// the same as in the shader. Pixel (0, 0) is at the lower left, and y points up. Pixel (x, y) has its centre
-// at (x
-// + 0.5, y + 0.5).
+// the same as in the shader. Pixel (0, 0) is at the lower left, and y points up. The centre of pixel (x, y)
+// is at (x + 0.5, y + 0.5).
 #pragma once
 
 #include <algorithm>

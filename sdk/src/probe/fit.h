@@ -112,10 +112,10 @@ class Fit {
   void merge(Fit& other);
   void reset();
 
-  // Reads one coefficient per function. They are 0 before the first sample. Allocates nothing.
+  // Reads one coefficient per function. Before the first sample, the coefficients are 0. Allocates nothing.
   void read(std::span<Vec3> coefficients);
-  // Reads the amplitudes for glossy reflection, fitted to the same samples; see gloss.h. They are 0 before
-  // the first sample. Only for Gaussians. Allocates nothing.
+  // Reads the amplitudes for glossy reflection, fitted to the same samples; see gloss.h. Before the first
+  // sample, the amplitudes are 0. Only for Gaussians. Allocates nothing.
   void read_gloss(std::span<Vec3> amplitudes);
 
   const Basis& basis() const { return basis_; }

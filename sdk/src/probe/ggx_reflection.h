@@ -45,9 +45,9 @@ SurfaceView view_of(const Surface& surface);
 // most 5 %; nook_probe.h documents the other errors.
 float directional_albedo(const SurfaceView& view, const Surface& surface);
 
-// A normal that the eye sees. It is given as a point of a unit disc, in which all visible normals are evenly
-// distributed (E. Heitz, Sampling the GGX Distribution of Visible Normals, 2018). The mapping depends on both
-// widths and on the view. The normal represents all normals near it.
+// A normal that the eye sees. The normal is given as a point of a unit disc, in which all visible normals are
+// evenly distributed (E. Heitz, Sampling the GGX Distribution of Visible Normals, 2018). The mapping depends
+// on both widths and on the view. The normal represents all normals near it.
 struct VisibleNormal {
   float across, along;  // coordinates in the disc, across and along the plane of incidence
   float share;          // area of the disc that the normal represents, relative to the other normals

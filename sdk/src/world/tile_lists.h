@@ -32,9 +32,9 @@ struct TileRange {
 // camera. `centre` is in view space, metres.
 TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius);
 
-// The shadow volume of a body in a cone of light. It is the union of spheres along a path: the centre moves
-// from `centre` along `away`, by up to `reach`, and the radius grows by `spread` metres per metre. `away` is
-// a unit vector that points away from the light.
+// The shadow volume of a body in a cone of light. The shadow volume is the union of spheres along a path. The
+// centre moves from `centre` along `away`, by up to `reach`. The radius grows by `spread` metres per metre.
+// `away` is a unit vector that points away from the light.
 struct Shadow {
   Vec3 away;
   float spread = 0, reach = 0;

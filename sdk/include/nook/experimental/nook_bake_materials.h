@@ -1,4 +1,4 @@
-/* Bakes of synthesis and of radiance transfer. They are experimental, like the objects that they make
+/* Bakes of synthesis and of radiance transfer. These bakes are experimental, like the objects that they make
  * (experimental/nook_synthesis.h, experimental/nook_transfer.h). Use the job functions of nook_bake.h to
  * follow and end the bakes. */
 #ifndef NOOK_BAKE_MATERIALS_H

@@ -81,7 +81,7 @@ typedef struct nook_gl_capture_info {
   uint32_t maps;
   /* Bands 0 to 2 of the light, 9 x RGB in the order of nook_sg_to_sh. */
   float harmonics[27];
-  /* With NOOK_GL_CAPTURE_SKY, these fields describe all suns together. They are the RGB irradiance on a
+  /* With NOOK_GL_CAPTURE_SKY, these fields describe all suns together. The fields are the RGB irradiance on a
    * surface that faces the suns, the unit direction to the centre of their light (or 0), and their solid
    * angle in steradians. */
   float sun_irradiance[3];

@@ -66,8 +66,8 @@ typedef struct nook_scene_key_point {
    * surface. */
   float position_ws[3];
   /* The shadow of the instance's own spheres in the last nook_scene_update, >= 0, before it is multiplied by
-   * the weights of the vertices. It is -1 before the first nook_scene_update; OpenGL updates do not set it,
-   * because their shadows stay on the GPU. */
+   * the weights of the vertices. `shadow` is -1 before the first nook_scene_update. OpenGL updates do not set
+   * `shadow`, because they keep the shadows on the GPU. */
   float shadow;
   float normal_ws[3];
   /* The occlusion by links, ground and occluders in the last nook_scene_update, in [0, 1], or -1 like
@@ -212,7 +212,7 @@ enum {
   /* The number of bodies for which a pixel tests whether it is within the body's reach, divided by 255. */
   NOOK_WORLD_VIEW_TESTS = 3,
   /* The number of far bodies that the pixels of the half-resolution stage evaluate, interpolated to all
-   * pixels; divided by 255. It is 0 if the pass has full resolution. */
+   * pixels; divided by 255. The view shows 0 if the pass has full resolution. */
   NOOK_WORLD_VIEW_FAR_CASTERS = 4,
   /* The number of far bodies for which the pixels of the half-resolution stage test whether they are within
    * the body's reach, interpolated to all pixels; divided by 255. */

@@ -42,9 +42,10 @@ extern "C" {
 
 typedef struct nook_nnao_stages_s* nook_nnao_stages;
 
-/* Images that stages read or write. The first four are your images. They are texture arrays for passes with
- * views. Depth is multisampled for passes with depth_samples, and normals for passes with normal_samples. If
- * your frames lack one of the four, use any 1 x 1 image. */
+/* Images that stages read or write. The first four are your images. For passes with views, your images are
+ * texture arrays. For passes with depth_samples, the depth image is multisampled. For passes with
+ * normal_samples, the normal image is multisampled. If your frames lack one of the four, use any 1 x 1
+ * image. */
 enum {
   NOOK_NNAO_IMAGE_HOST_DEPTH = 0,
   NOOK_NNAO_IMAGE_HOST_NORMAL = 1,

@@ -239,8 +239,8 @@ NOOK_API void nook_transfer_response_destroy(nook_transfer_response* response);
 typedef struct nook_transfer_response_info {
   uint32_t struct_size;
   uint32_t lobe_count;
-  /* The number of light modes of one channel: R_l of the material, rounded up to a multiple of 4. It is 4 *
-   * NOOK_LIGHT_VEC4_COUNT of the material's GLSL. */
+  /* The number of light modes of one channel: R_l of the material, rounded up to a multiple of 4. This number
+   * is 4 * NOOK_LIGHT_VEC4_COUNT in the material's GLSL. */
   uint32_t light_modes;
   /* The number of floats in the vector of a vertex, 3 * light_modes. */
   uint32_t vector_floats;

@@ -58,7 +58,7 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
 // Returns a copy of the frame with the matrices of one layer.
 NnaoFrame layer_frame(const NnaoFrame& frame, int layer);
 
-// Returns the number of layers to draw in a frame. It is 1 unless the images are texture arrays.
+// Returns the number of layers to draw in a frame. If the images are not texture arrays, this is 1.
 constexpr int drawn_layers(const nook_nnao_desc& pass) {
   return pass.views > 0 ? pass.views : 1;
 }
