@@ -416,7 +416,7 @@ TEST_CASE("every refused allocation of a crowd's clips gives an error and leaves
     const bool needs_memory = computes(info_of(gl).tier);
     nook_gl_destroy(&gl);
     if (result == NOOK_OK) {
-      CHECK(refusals >= (needs_memory ? 3 : 0));
+      CHECK(refusals >= (needs_memory ? 2 : 0));  // the list of tables, and the numbers of one
       break;
     }
     ++refusals;
@@ -447,7 +447,7 @@ TEST_CASE("a crowd's clips that cannot be played are refused, and nothing change
   refused("is not a rotation", invalid, [](Some& s) { s[8].place_3x4[5] *= 1.1f; });
   refused("is not a rotation", invalid, [](Some& s) { std::fill_n(s[8].place_3x4, 12, 0.0f); });
   refused("far too large", invalid, [](Some& s) {
-    for (const int k : {2, 5, 8}) s[8].place_3x4[k] *= 9e5f;
+    for (const int k : {2, 5, 8}) s[8].place_3x4[k] *= 9.99e5f;
   });
   refused("instance 12345", NOOK_ERROR_INVALID_HANDLE, [](Some& s) { s[3].instance = 12345; });
   refused("occurs twice", invalid, [](Some& s) { s[3].instance = s[7].instance; });
