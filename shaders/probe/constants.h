@@ -17,9 +17,9 @@
 #define NOOK_LUMINANCE_BLUE 0.0722
 
 // Grids in 3D textures. The walls of a cell are planes that cut the cell into sides. NOOK_GRID_LEAST_SHARE is
-// the minimum distance of interpolation factors from 0 and 1. It ensures that the probes on a point's own side
-// have weights above 0, in the right proportions, even if trilinear interpolation would give all weight to
-// other probes.
+// the minimum distance of interpolation factors from 0 and 1. It ensures that the probes on a point's own
+// side have weights above 0, in the right proportions, even if trilinear interpolation would give all weight
+// to other probes.
 #define NOOK_GRID_PLANES 3
 #define NOOK_GRID_SIDES 8
 #define NOOK_GRID_LEAST_SHARE 0.00390625
@@ -37,9 +37,9 @@
 #define NOOK_GGX_FRESNEL_0 0.0959894, 2.7088, -4.49875, 2.04796, 0.0822377
 #define NOOK_GGX_FRESNEL_1 -1.19048, 0.453772, 5.69707, -4.60221, 0.51734
 #define NOOK_GGX_FRESNEL_2 -7.41744, 4.8863, 2.22828, -0.318929, -0.891444
-// A few visible normals represent all visible normals. For a single lobe, there is one normal. For four lobes,
-// there is one normal towards the eye, one away from the eye, and one on each side. Each normal has a place on
-// the disc, a share of the disc, and a sharpness divided by the density of directions.
+// A few visible normals represent all visible normals. For a single lobe, there is one normal. For four
+// lobes, there is one normal towards the eye, one away from the eye, and one on each side. Each normal has a
+// place on the disc, a share of the disc, and a sharpness divided by the density of directions.
 #define NOOK_GGX_MIDDLE_ALONG -0.629765, 1.84005, -0.724038, 0.327629, -0.673784, -0.0885385
 #define NOOK_GGX_MIDDLE_SHARPNESS 1.38497, -3.91715, 4.77755, -1.724, 2.54411, 0.661453
 #define NOOK_GGX_NEAR_ALONG -0.837711, 0.119602, 0.228392, -0.168367, 0.227789, 0.034692
