@@ -13,8 +13,9 @@ namespace {
 
 constexpr int hilbert_side = 64;
 
-// Returns the distance along the curve from its start to a cell (D. Hilbert, 1891). Quadrants go from the
-// largest to the smallest. Each is turned so that the curve enters it where it left the one before.
+// Returns the distance along the Hilbert curve from its start to a cell (D. Hilbert, 1891). The loop goes
+// from the largest quadrants to the smallest. It rotates each quadrant so that the curve enters it where the
+// curve left the previous one.
 float hilbert_place(int x, int y) {
   int place = 0;
   for (int half = hilbert_side / 2; half > 0; half /= 2) {
@@ -68,7 +69,7 @@ void DepthLevels::draw(const GpuView& view, float radius_m, float falloff) {
     gl_.BindFramebuffer(GL_FRAMEBUFFER, framebuffers_[level]);
     gl_.Uniform1i(program_.at("from_host"), level == 0);
     if (level > 0) {
-      // Only the level to read is visible while the next one is drawn.
+      // While a level is drawn, the shader may sample only the level before it.
       gl_.BindTexture(GL_TEXTURE_2D, texture_);
       gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_BASE_LEVEL, level - 1);
       gl_.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, level - 1);
@@ -136,7 +137,8 @@ GLuint EdgeDenoiser::denoise(GLuint ao, int passes, float scale) {
 
 namespace {
 
-// XeGTAO's AO may be above 1 before its denoiser, so it is divided by this.
+// Before its denoiser, XeGTAO's AO may exceed 1. The shader divides by this factor, so that the value fits
+// the texture.
 constexpr float headroom = 1.5f;
 
 }  // namespace
@@ -202,7 +204,7 @@ void BaselinePass::draw_raw(const BaselineMethod& method, const GpuView& view, c
   gl_.Uniform1f(shader.at("power"), tuning.power);
   gl_.Uniform1i(shader.at("groups"), grid.groups);
   gl_.Uniform1i(shader.at("steps"), grid.steps);
-  // A baseline has one of these. The location of the others is -1, which OpenGL ignores.
+  // A baseline's shader has one of these uniforms. The location of the others is -1, which OpenGL ignores.
   for (const char* shape : {"bias", "falloff", "thickness", "threshold"})
     gl_.Uniform1f(shader.at(shape), tuning.shape);
   gl_.Uniform2f(shader.at("bias_turn"), std::cos(tuning.shape), std::sin(tuning.shape));
@@ -286,7 +288,7 @@ GLuint BaselinePass::draw_own(Denoiser denoiser, GLuint ao, const GpuView& view,
   const int passes = denoiser == Denoiser::box ? 1 : denoiser == Denoiser::disc ? disc_passes : 2;
   set_surface(program, view, request);
   gl_.Uniform1i(program.at("ao_image"), 2);
-  // N8AO's default radius of the disc.
+  // The default disc radius of N8AO.
   gl_.Uniform1f(program.at("disc_px"), 12);
   for (int pass = 0; pass < passes; ++pass) {
     const GpuImage& target = images_[(pass + 1) % 2];
@@ -317,7 +319,7 @@ GLuint BaselinePass::blur(GLuint ao, const GpuView& view, const AoRequest& reque
 }
 
 std::vector<FrameMethod> frame_baselines(const GladGLContext& gl) {
-  // The first baseline to be drawn makes it, because most replays draw none.
+  // The pass is created when the first baseline is drawn, because most replays draw no baseline.
   const auto pass = std::make_shared<std::unique_ptr<BaselinePass>>();
   std::vector<FrameMethod> methods;
   for (const BaselineMethod& method : baseline_methods())

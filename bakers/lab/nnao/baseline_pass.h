@@ -31,8 +31,8 @@ class DepthLevels {
   DepthLevels(const DepthLevels&) = delete;
   DepthLevels& operator=(const DepthLevels&) = delete;
 
-  // radius_m and falloff: XeGTAO's tuned radius and its falloff range, a share of the radius. Bind a vertex
-  // array first.
+  // radius_m is XeGTAO's tuned radius. falloff is its falloff range, as a share of the radius. Bind a vertex
+  // array before the call.
   void draw(const measure::GpuView& view, float radius_m, float falloff);
   GLuint texture() const { return texture_; }
 
@@ -43,10 +43,11 @@ class DepthLevels {
   GLuint texture_ = 0, framebuffers_[count] = {};
 };
 
-// Noise for XeGTAO: places on a Hilbert curve over 64 x 64 pixels, 0 to 4095, one per texel (R32F).
+// Returns the noise texture of XeGTAO (R32F). Each of its 64 x 64 texels holds its position along a Hilbert
+// curve, 0 to 4095.
 measure::GpuImage hilbert_image(const GladGLContext& gl);
 
-// XeGTAO's edge-aware denoiser, for any AO.
+// XeGTAO's edge-aware denoiser. It can denoise the AO of any method.
 class EdgeDenoiser {
  public:
   EdgeDenoiser(const GladGLContext& gl, int width, int height);
@@ -55,8 +56,8 @@ class EdgeDenoiser {
   void find_edges(const measure::GpuView& view);
   const measure::GpuImage& edge_image() const { return edges_; }
 
-  // Returns the texture (R8) with the AO after some passes, times scale. Draw the edges and bind a vertex
-  // array first.
+  // Runs `passes` passes, multiplies the result by `scale`, and returns the texture (R8) that holds it. Call
+  // find_edges and bind a vertex array before.
   GLuint denoise(GLuint ao, int passes, float scale);
 
  private:
@@ -73,12 +74,13 @@ class BaselinePass {
   BaselinePass(const GladGLContext& gl, int width, int height);
   ~BaselinePass();
 
-  // Returns the texture (R8) that holds the AO until the next call. denoised: runs the tuning's denoiser.
+  // Returns the texture (R8) with the AO, which is valid until the next call. If `denoised` is true, the
+  // denoiser of the method's tuning runs too.
   GLuint draw(const BaselineMethod& method, const measure::GpuView& view, const measure::AoRequest& request,
               bool denoised);
   // The bent normals of XeGTAO before its denoiser, in view space, with packed edges.
   struct BentImage {
-    std::vector<Vec3> bent_normal;  // zero without a surface
+    std::vector<Vec3> bent_normal;  // zero for pixels without a surface
     std::vector<float> edges;
   };
   BentImage draw_bent(const BaselineMethod& xegtao, const measure::GpuView& view,
@@ -93,7 +95,7 @@ class BaselinePass {
                    const measure::AoRequest& request) const;
   void draw_raw(const BaselineMethod& method, const measure::GpuView& view,
                 const measure::AoRequest& request);
-  // XeGTAO also writes the edges, and AO above 1 for its own denoiser.
+  // Draws XeGTAO. It also writes the edges, and its AO may exceed 1, as its own denoiser expects.
   void draw_xegtao(const measure::GpuProgram& shader, const BaselineMethod& method,
                    const measure::GpuView& view, const measure::AoRequest& request, float scale,
                    GLuint framebuffer);
@@ -114,7 +116,7 @@ class BaselinePass {
   measure::GpuImage hilbert_;
 };
 
-// The baselines as rows of a replayed frame, each denoised. gl must outlive the result.
+// Returns the baselines as methods for replayed frames, each with its denoiser. `gl` must outlive the result.
 std::vector<measure::FrameMethod> frame_baselines(const GladGLContext& gl);
 
 }  // namespace nook::lab

@@ -21,7 +21,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// Left, right, below, above.
+// The edges to the left, right, lower and upper neighbour.
 using Edges = std::array<float, 4>;
 
 Edges unpacked(float packed) {
@@ -29,7 +29,7 @@ Edges unpacked(float packed) {
   return {float(bits >> 6 & 3) / 3, float(bits >> 4 & 3) / 3, float(bits >> 2 & 3) / 3, float(bits & 3) / 3};
 }
 
-// The image with the nearest pixel beyond its border.
+// An image that returns the nearest pixel for coordinates outside its border.
 struct Clamped {
   std::span<const Vec3> vectors;
   std::span<const float> edges;
@@ -77,7 +77,8 @@ std::vector<Vec3> edge_average(std::span<const Vec3> vectors, std::span<const fl
 
 namespace {
 
-// A method's result for a view: a bent normal for each pixel, and AO if lighting can use it.
+// The result of a method for a view: a bent normal for each pixel, and AO if the method has AO that lighting
+// can use.
 struct BentView {
   std::vector<Vec3> bent_normal;
   std::vector<float> ao;
@@ -94,7 +95,7 @@ struct BentMethod {
 struct BentSums {
   std::vector<double> degrees;
   std::array<double, measured_roughness.size()> fitted{}, lagarde{};
-  double pixels = 0;  // pixels with AO
+  double pixels = 0;  // number of pixels with AO
 };
 
 double degrees_between(Vec3 a, Vec3 b) {
@@ -171,7 +172,7 @@ BentView network_view(const GladGLContext& gl, GLuint texture, int width, int he
   return found;
 }
 
-// Returns the mean of each number over the sources; for the ratio, the geometric mean.
+// Returns the mean of each numeric field over the sources. The mean of ratios is geometric.
 Json mean_row(const std::vector<Json>& sources) {
   Json row = sources.front();
   row["scene"] = "mean";

@@ -1,4 +1,4 @@
-// Compares bent normals and specular occlusion with ray tracing, for the methods that have them.
+// Compares bent normals and specular occlusion with ray tracing, for the methods that produce them.
 #pragma once
 
 #include <cstdint>
@@ -16,24 +16,27 @@
 namespace nook::lab {
 
 // Runs one pass of XeGTAO's edge-aware denoiser over vectors on the CPU, with the weights of
-// shaders/denoise.glsl. vectors: row by row. packed_edges: from shaders/edges.glsl, in [0, 1]. last: no pass
-// follows, which gives the pixel itself more weight. Results have unit length or are zero.
+// shaders/denoise.glsl. `vectors` is stored row by row. `packed_edges` are values in [0, 1], packed by
+// shaders/edges.glsl. `last` means that no further pass follows; the pixel itself then gets more weight.
+// Result vectors have unit length or are zero.
 std::vector<Vec3> edge_average(std::span<const Vec3> vectors, std::span<const float> packed_edges,
                                std::uint32_t width, bool last);
 
-// Degrees and errors count where the reference's AO is below this. Elsewhere the normal is good enough.
+// Only pixels whose reference AO is below this value count for angles and errors. Elsewhere the surface
+// normal is good enough.
 inline constexpr float bent_below = 0.7f;
 
-// Returns rows of each source and their means. The columns are
+// Returns the rows of each source, and their means. The columns are
 //   method, taps, denoiser, scene
 //   angle           degrees, the median where the reference's AO is below bent_below
 //   angle_mean      degrees
 //   specular_mse    for methods with AO, like the rest
 //   lagarde_mse     by S. Lagarde's form of the same AO
 //   specular_ratio  and both errors for each roughness
-// Views need one size and bent references. The request's radius is each view's. Methods are the normal, the
-// reference itself, the library with its presets' taps, and XeGTAO with its denoiser. progress counts
-// methods; false stops, which throws Failure(CANCELLED).
+// All views must have the same size and must contain bent references. The radius of `request` is replaced by
+// the radius of each view. The methods are the surface normal, the reference itself, the library with the tap
+// counts of its presets, and XeGTAO with its denoiser. `progress` counts methods. If it returns false, the
+// function throws Failure(CANCELLED).
 nlohmann::ordered_json bent_rows(platform::Context& context, std::span<const MeasuredView> views,
                                  measure::AoRequest request,
                                  const std::function<bool(std::size_t, std::size_t)>& progress);

@@ -27,7 +27,7 @@ void add_picket_fence(TriangleSoup& soup, float x, float z, float length) {
 void add_wire_mesh(TriangleSoup& soup, float x, float z, float length) {
   const float height = 1.1f;
   for (float along = -height; along < length; along += 0.09f) {
-    // The diagonal meets the frame's left and right ends here.
+    // Where the diagonal meets the left and right ends of the frame.
     const float low = along < 0 ? -along : 0, high = along + height > length ? length - along : height;
     add_rod(soup, {x + along + low, low, z}, {x + along + high, high, z}, 0.004f, 5);
     add_rod(soup, {x + along + low, height - low, z + 0.008f}, {x + along + high, height - high, z + 0.008f},
@@ -45,7 +45,7 @@ void add_bentwood_chair(TriangleSoup& soup, Vec3 foot, float turn) {
     add_cylinder(soup, at(0.25f * c, 0, 0.25f * s), at(0.17f * c, 0.44f, 0.17f * s), 0.011f, 0.016f, 10);
   }
   add_torus(soup, standing_frame(at(0, 0.22f, 0), 0), 0.205f, 0.009f, 28);
-  // Two hoops of the back.
+  // The back consists of two hoops.
   for (const float size : {1.0f, 0.62f}) {
     Vec3 last = at(-0.19f * size, 0.46f, -0.16f);
     for (int i = 1; i <= 12; ++i) {
@@ -58,7 +58,7 @@ void add_bentwood_chair(TriangleSoup& soup, Vec3 foot, float turn) {
   }
 }
 
-// Blades that bend outwards, and leaves on stalks.
+// Adds a plant: blades that bend outwards, and leaves on stalks.
 void add_plant(TriangleSoup& soup, Vec3 foot, bake::Random& random) {
   add_cylinder(soup, foot, foot + Vec3{0, 0.22f, 0}, 0.12f, 0.16f, 20);
   const Vec3 root = foot + Vec3{0, 0.22f, 0};

@@ -10,15 +10,15 @@ namespace nook::lab {
 
 // Makes a scene of thin objects on a floor in front of a wall: a fence, a wire mesh, bentwood chairs, a plant
 // with blades and leaves, and a hand. No training scene contains them. They are difficult for methods with
-// one depth per pixel. The same seed gives the same scene.
+// one depth per pixel. The scene depends only on the seed.
 bake::nnao::TrainingScene make_thin_scene(std::uint64_t seed);
 
-// The place where a moving body is measured. The floor is at y = 0, and the wall is behind the way, which
-// leads through the origin. Half a metre of skirting, crates, a table and a chair are along the wall, with a
-// thin post in front. World space, metres.
+// Returns the room in which a moving body is measured, in world space and metres. The floor is at y = 0. The
+// body's path leads through the origin, and a wall is behind the path. Skirting, crates, a table and a chair
+// stand along the wall, and a thin post stands in front.
 bake::TriangleSoup mover_stage();
 
-// A camera, and the way of the body that it follows.
+// A camera, and the walking direction of the body that it follows.
 struct MoverShot {
   const char* name;
   Vec3 eye, target;

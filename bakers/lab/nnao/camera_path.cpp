@@ -11,7 +11,7 @@ using namespace bake::nnao;
 
 namespace {
 
-// Returns 0 without a surface.
+// Returns the median depth of the pixels with a surface, or 0 if there are none.
 float median_depth(const TracedView& view) {
   std::vector<float> depths;
   for (const float depth : view.depth)
@@ -31,7 +31,7 @@ Camera moved(Camera camera, Vec3 along_vs) {
   return camera;
 }
 
-// Returns the step back along the path, in view space.
+// Returns the camera's motion from one frame to the previous one, in view space.
 Vec3 step_back(const bake::RayScene& rays, const TracedView& view, const PathSettings& settings) {
   const Mat3x4& world = view.camera.world_from_view;
   const float length = settings.step_px * std::abs(view.camera.rays.x_scale) * median_depth(view);
@@ -41,17 +41,19 @@ Vec3 step_back(const bake::RayScene& rays, const TracedView& view, const PathSet
   for (const float side : {1.0f, -1.0f}) {
     const Vec3 back{side * length, 0, settings.forward * length};
     const Vec3 whole = float(settings.frames - 1) * back;
-    // Finds the distance to a wall, in lengths of the whole way from the view to the oldest frame.
+    // Finds the distance to a wall. The unit is the length of the whole path from the view to the oldest
+    // frame.
     const float room = length > 0 ? rays.nearest(eye, transform_vector(world, whole)).distance : 0.0f;
     if (room <= best_room) continue;
     best_room = room;
-    // Uses half of the room at most, because a camera in a wall sees nothing.
+    // Uses at most half of this distance, because a camera inside a wall sees nothing.
     best = std::min(1.0f, 0.5f * room) * back;
   }
   return best;
 }
 
-// Returns the change of depth to the neighbours along both axes, each on the flatter side.
+// Returns the sum of the depth differences to a neighbour along x and along y. Of the two neighbours on an
+// axis, the one with the smaller difference counts.
 float depth_slope(const TracedView& view, std::uint32_t x, std::uint32_t y) {
   const std::uint32_t width = view.camera.width, height = view.camera.height;
   const float depth = view.depth[std::size_t(y) * width + x];
@@ -66,10 +68,11 @@ float depth_slope(const TracedView& view, std::uint32_t x, std::uint32_t y) {
   return (std::isfinite(across) ? across : 0) + (std::isfinite(up) ? up : 0);
 }
 
-// Depths of one surface differ by its slope and, where it curves, by this share of the depth.
+// Depths on one surface may differ by the slope plus this share of the depth. The share allows for curvature.
 constexpr float depth_share = 0.005f;
 
-// If fewer of the four pixels match, they are a border that grazes the place.
+// The smallest total weight of matching pixels. With less, the position only grazes the border of the
+// surface.
 constexpr float smallest_share = 0.05f;
 
 EarlierPixels pixels_at(const TracedView& before, Vec3 position, float tolerance) {

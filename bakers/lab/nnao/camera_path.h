@@ -1,4 +1,5 @@
-// Moves a camera to a view, and finds where the surfaces of a frame were in the frame before.
+// Makes a camera path that ends at a view, and finds where the surfaces of a frame were in the previous
+// frame.
 #pragma once
 
 #include <array>
@@ -10,16 +11,17 @@
 namespace nook::lab {
 
 struct PathSettings {
-  std::size_t frames = 0;  // includes the view itself; 0: no path
-  // Pixels by which surfaces at the median depth move sideways per frame. It is not a whole number, so that
-  // every frame is resampled.
+  std::size_t frames = 0;  // includes the view itself; 0 makes no path
+  // Sideways motion of surfaces at the median depth, in pixels per frame. The default is not a whole number,
+  // so that every frame is resampled.
   float step_px = 2.7f;
-  // Forward motion over sideways motion, so that rows are resampled as well.
+  // Ratio of forward to sideways motion of the camera. Forward motion makes sure that rows are resampled as
+  // well.
   float forward = 0.3f;
 };
 
-// Returns the cameras of the frames before the view, the oldest first. The camera comes from the side with
-// more room. Its way is shorter where the room ends.
+// Returns the cameras of the frames before the view, the oldest first. The camera comes from the side that
+// has more space. The path is shortened if a wall is too near.
 std::vector<bake::nnao::Camera> path_cameras(const bake::RayScene& rays, const bake::nnao::TracedView& view,
                                              const PathSettings& settings);
 
@@ -30,16 +32,16 @@ std::vector<bake::nnao::TracedView> trace_path(const bake::RayScene& rays, const
 // Returns the matrix from the view space of a frame to the view space of the frame before.
 Mat3x4 earlier_from_view(const bake::nnao::Camera& now, const bake::nnao::Camera& before);
 
-// Where a camera sees a point, in pixels from the lower left pixel's centre.
+// The position of a point in a camera's image, in pixels from the centre of the lower left pixel.
 struct ScreenPlace {
   float x = 0, y = 0;
-  bool in_image = false;  // at most one pixel outside, and in front of the camera
+  bool in_image = false;  // in front of the camera, and at most one pixel outside the image
 };
 ScreenPlace screen_place(const bake::nnao::Camera& camera, Vec3 position_vs);
 
-// The pixels of the frame before that show a pixel's surface: of the four around its place there, those with
-// the surface's depth. The weights are bilinear and sum to 1. They are all 0 if the surface was hidden or
-// outside the image.
+// The pixels of the previous frame that show the same surface as a pixel of this frame. Candidates are the
+// four pixels around the surface's position in the previous frame; those whose depth matches are used. The
+// weights are bilinear and sum to 1. All weights are 0 if the surface was hidden or outside the image.
 struct EarlierPixels {
   std::array<std::uint32_t, 4> pixel{};
   std::array<float, 4> weight{};
@@ -47,7 +49,7 @@ struct EarlierPixels {
   bool seen() const { return weight[0] + weight[1] + weight[2] + weight[3] > 0; }
 };
 
-// Returns one entry for each pixel of `now`, which is empty without a surface.
+// Returns one entry for each pixel of `now`. The entry of a pixel without a surface is empty.
 std::vector<EarlierPixels> earlier_pixels(const bake::nnao::TracedView& now,
                                           const bake::nnao::TracedView& before);
 

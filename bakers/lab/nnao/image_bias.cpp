@@ -57,7 +57,7 @@ double BorderBias::rim() const {
 namespace {
 
 constexpr float dark_below = 0.35f;
-constexpr double counting_share = 0.005;  // share of the pixels; means of fewer pixels are noise
+constexpr double counting_share = 0.005;  // smallest share of the pixels; the mean of fewer is noise
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// The mean error of parts of an AO image.
+// Measures the mean error in parts of an AO image.
 #pragma once
 
 #include <array>
@@ -11,11 +11,12 @@
 namespace nook::lab {
 
 inline constexpr std::array<const char*, 4> border_names{"left", "right", "bottom", "top"};
-// Bands along a border, in pixels: each goes from the end of the previous one to this distance.
+// The outer distances of the bands along each border, in pixels. Each band begins where the previous one
+// ends.
 inline constexpr std::array<std::uint32_t, 3> border_bands_px{5, 20, 60};
 
-// Measures the dark or bright rim of an AO image: its mean error by the distance to each border of the
-// screen. Sums over pixels with a surface, over any number of images.
+// Measures whether AO images have a dark or bright rim. It computes the mean error as a function of the
+// distance to each border of the screen. You can add any number of images. Only pixels with a surface count.
 class BorderBias {
  public:
   // Adds an image, row by row from the bottom, with one value for each pixel. A pixel counts if its depth is
@@ -24,13 +25,13 @@ class BorderBias {
            std::uint32_t width);
   void add(const BorderBias& other);
 
-  // Returns the mean of AO - truth in a band of a border, or 0 if no pixel counts. A pixel in a corner counts
-  // at both borders.
+  // Returns the mean of AO - truth in one band of one border, or 0 if the band has no pixels. A pixel in a
+  // corner counts for both borders.
   double at(std::size_t border, std::size_t band) const;
-  // Returns the mean beyond the bands of all borders.
+  // Returns the mean of AO - truth over the pixels that are in no band.
   double inside() const;
-  // Returns the mean over the pixels within 20 px of any border, minus the mean inside: below 0 the rim is
-  // dark, above 0 it is bright.
+  // Returns the mean of AO - truth within 20 px of any border, minus inside(). A negative result means a dark
+  // rim, and a positive result a bright rim.
   double rim() const;
 
  private:
@@ -38,19 +39,19 @@ class BorderBias {
   measure::Mean rim_, inside_;
 };
 
-// The mean error where the truth is dark, and for each value of the image. Sums over pixels with a surface,
-// over any number of images.
+// Measures the mean error where the truth is dark, and the mean error as a function of the image's AO. You
+// can add any number of images. Only pixels with a surface count.
 class Calibration {
  public:
   // Adds an image with one value for each pixel. A pixel counts if its depth is finite.
   void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth);
   void add(const Calibration& other);
 
-  // Returns the mean of AO - truth where the truth is below 0.35; 0 without such pixels. Above 0, dark parts
-  // are too bright.
+  // Returns the mean of AO - truth over the pixels whose truth is below 0.35, or 0 if there are none. A
+  // positive result means that dark parts are too bright.
   double dark_bias() const;
-  // Returns the largest magnitude of the mean of AO - truth, over the tenths of AO that hold at least 0.5 %
-  // of the pixels.
+  // Divides the AO range into ten equal bins, and returns the largest magnitude of a bin's mean of AO -
+  // truth. Only bins with at least 0.5 % of the pixels count.
   double largest_bias() const;
 
  private:

@@ -41,7 +41,8 @@ std::vector<MeasuredView> tuning_views(std::uint64_t seed,
     TruthSettings settings;
     settings.width = 320;
     settings.height = 180;
-    // The noise of the references adds the same to the error of every tuning.
+    // Few rays are enough, because the noise of the reference adds the same amount to the error of every
+    // tuning.
     settings.rays = 32;
     settings.radius = radii[(i + i / family_count) % 3];
     const Camera camera = place_camera(rays, scene, random, settings.width, settings.height);

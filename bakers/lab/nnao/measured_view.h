@@ -1,4 +1,4 @@
-// The views of scenes, with all references for methods.
+// Views of scenes, with the references that methods are compared with.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ namespace nook::lab {
 
 // One camera.
 struct MeasuredView {
-  std::string scene, source;  // a scene without a source is its own source
-  std::string camera;         // its name; empty: none
+  std::string scene, source;  // the default source is the scene itself
+  std::string camera;         // its name, or empty
   float radius = 0;           // metres
   bake::nnao::TracedView view;
-  bake::nnao::TracedView slid;  // same view, slid by one pixel
+  bake::nnao::TracedView slid;  // the same view, shifted by one pixel
   std::vector<float> truth;
-  double noise = 0;             // expected squared error of the truth
+  double noise = 0;             // expected squared error of the reference
   std::vector<BentTruth> bent;  // if the settings request it
   // Earlier frames, the oldest first, if the settings request a path.
   std::vector<bake::nnao::TracedView> path;
@@ -31,8 +31,9 @@ MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene,
                           const bake::nnao::Camera& camera, const TruthSettings& settings,
                           const TruthStore& store = {});
 
-// Returns 24 views of different training scenes, with families and radii of 0.25, 0.5 and 1 metre in turn.
-// Baselines are tuned on them. Return false from progress to stop, which throws Failure(CANCELLED).
+// Returns the 24 views on which baselines are tuned. Each shows a different training scene. The scene
+// families, and the radii of 0.25, 0.5 and 1 metre, are used in turn. If `progress` returns false, the
+// function throws Failure(CANCELLED).
 std::vector<MeasuredView> tuning_views(std::uint64_t seed,
                                        const std::function<bool(std::size_t, std::size_t)>& progress);
 
@@ -40,21 +41,22 @@ struct GivenCamera {
   Vec3 eye, target;  // metres
   float fov = 0;     // vertical, radians
   std::string name = {};
-  float radius = 0;  // metres; 0: the scene's
+  float radius = 0;  // metres; 0 uses the scene's radius
 };
 
 struct SceneRequest {
-  std::string name;            // the file's name without extension, or thin
-  std::filesystem::path file;  // empty: the built-in scene of thin things
+  std::string name;            // the file's name without extension, or "thin"
+  std::filesystem::path file;  // if empty, uses the built-in scene of thin objects
   float radius = 0.5f;         // metres
   std::vector<GivenCamera> cameras;
   bake::ImportOptions reading;
-  std::string source = {};  // empty: the scene's name
+  std::string source = {};  // if empty, the scene's name
 };
 
-// Reads the scene and traces its views. placed: how many cameras to place if none is given. references: a
-// folder of kept references; empty: none. progress counts views; false stops, which throws Failure
-// (CANCELLED). Throws Failure (BAD_FILE) for a scene that cannot be read.
+// Reads the scene and traces its views. If the scene names no camera, the function places `placed` cameras.
+// `references` is a folder that caches references; if it is empty, nothing is cached. `progress` counts
+// views. If it returns false, the function throws Failure (CANCELLED). Throws Failure (BAD_FILE) for a scene
+// that cannot be read.
 std::vector<MeasuredView> trace_views(
     const SceneRequest& scene, TruthSettings truth, std::uint32_t placed,
     const std::filesystem::path& references,

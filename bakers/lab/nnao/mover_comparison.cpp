@@ -26,7 +26,7 @@ constexpr NamedPart named_parts[] = {{MoverPart::mover, "mover"},
                                      {MoverPart::beside, "beside"},
                                      {MoverPart::elsewhere, "elsewhere"}};
 
-// The frames of a view on the GPU.
+// The images of all frames of a view, on the GPU.
 struct MoverImages {
   MoverImages(const GladGLContext& gl, const MoverView& view) {
     const MeasuredView& measured = view.measured;
@@ -40,7 +40,7 @@ struct MoverImages {
   std::deque<GpuImage> motion;
 };
 
-// Returns the AO of the last frame.
+// Draws all frames and returns the AO of the last one.
 std::vector<float> draw(const GladGLContext& gl, const NookGl& nook_gl, const MoverView& view,
                         const MoverImages& images, const AoRequest& request, int taps, MoverPass used) {
   const std::size_t count = images.frames.size();

@@ -1,5 +1,5 @@
-// Measures means of AO over frames in which a skinned body moves, against ray tracing and beside single
-// frames.
+// Measures temporally accumulated AO of a scene in which a skinned body moves. The report compares it with
+// ray tracing and with the AO of single frames.
 #pragma once
 
 #include <array>
@@ -15,14 +15,14 @@
 
 namespace nook::lab {
 
-// Length of a sequence, and of the longest mean.
+// Number of frames of a sequence, and of the longest temporal mean.
 inline constexpr std::size_t mover_frames = 8;
 
-// Which earlier frames a pass uses.
+// How a pass uses earlier frames.
 enum class MoverPass : std::uint8_t {
-  single,   // each frame alone
-  vectors,  // a mean over frames with motion vectors of the body
-  cameras   // a mean over frames that follows the camera alone
+  single,   // uses each frame alone
+  vectors,  // accumulates frames, with motion vectors of the body
+  cameras   // accumulates frames, and reprojects by the camera's motion only
 };
 inline constexpr std::array<MoverPass, 3> mover_passes{MoverPass::single, MoverPass::vectors,
                                                        MoverPass::cameras};
@@ -31,8 +31,8 @@ const char* mover_pass_name(MoverPass pass);
 struct MoverError {
   int taps = 0;
   MoverPass pass = MoverPass::single;
-  std::array<double, mover_part_count> mse{};   // in the last frame, by MoverPart; 0 without a pixel
-  std::array<double, mover_part_count> bias{};  // mean of AO less the reference
+  std::array<double, mover_part_count> mse{};  // in the last frame, by MoverPart; 0 for a part without pixels
+  std::array<double, mover_part_count> bias{};  // mean of AO - reference
 };
 
 struct MeasuredMover {
@@ -42,17 +42,17 @@ struct MeasuredMover {
   std::vector<MoverError> errors;
 };
 
-// The view needs mover_frames frames. If images is not null, it receives the last frame's AO of each pass
-// with 9 taps, in the order of mover_passes.
+// The view must have mover_frames frames. If `images` is not null, it receives the AO of each pass with 9
+// taps in the last frame, in the order of mover_passes.
 MeasuredMover measure_mover(platform::Context& context, const MoverView& view, measure::AoRequest request,
                             std::vector<std::vector<float>>* images);
 
-// In a view, parts with fewer pixels do not count, because they would be chance.
+// A part with fewer pixels in a view is ignored there, because its error would be mostly noise.
 inline constexpr std::size_t fewest_part_pixels = 100;
 
-// Members `rows`: means over each character's views and over the characters; `ratios`: errors over the errors
-// of single frames; `views`: each view and pass. docs/lab/nnao_protocol.md explains the columns. movers: one
-// or more.
+// Returns an object with three members. `rows` has the means over the views of each character, and over all
+// characters. `ratios` has the errors divided by the errors of single frames. `views` has one entry for each
+// view and pass. docs/lab/nnao_protocol.md explains the columns. `movers` must not be empty.
 nlohmann::ordered_json mover_report(std::span<const MeasuredMover> movers, std::uint64_t seed);
 
 std::string mover_markdown(const nlohmann::ordered_json& report);

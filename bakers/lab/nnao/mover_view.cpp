@@ -48,12 +48,12 @@ std::size_t walking_clip(const bake::ImportedCharacter& character, const std::st
 
 namespace {
 
-// A frame with the point of the body that each pixel shows.
+// A traced frame. For each pixel, it stores which point of the body the pixel shows.
 struct MoverFrame {
   static constexpr std::uint32_t none = ~0u;
 
   TracedView view;
-  std::vector<std::uint32_t> triangle;  // triangle of the body; none: another surface or the sky
+  std::vector<std::uint32_t> triangle;  // triangle of the body, or `none` for another surface or the sky
   std::vector<float> u, v;              // barycentric weights of the triangle's second and third vertex
 };
 
@@ -64,7 +64,7 @@ bake::TriangleSoup with_body(bake::TriangleSoup soup, const MovingBody& body, st
   return soup;
 }
 
-// still: the number of triangles that do not belong to the body.
+// `still` is the number of triangles of the static scene, which come before the body's triangles.
 MoverFrame trace_frame(const bake::RayScene& rays, const Camera& camera, std::size_t still) {
   MoverFrame frame{{camera, {}, {}}, {}, {}, {}};
   const bake::FlushDenormals flush;
@@ -88,7 +88,7 @@ Vec3 position_vs(const TracedView& view, std::size_t pixel) {
                                    view.depth[pixel]);
 }
 
-// Returns where the surface of a pixel was in the frame before, in that frame's view space.
+// Returns the position of a pixel's surface in the previous frame, in the view space of that frame.
 Vec3 earlier_position(const MoverFrame& now, const Camera& before, const std::vector<Vec3>& body,
                       const MovingBody& mover, std::size_t pixel) {
   if (now.triangle[pixel] == MoverFrame::none)
@@ -112,7 +112,7 @@ std::vector<float> motion_of(const MoverFrame& now, const Camera& before, const 
   return motion;
 }
 
-// Returns for each pixel whether the body hides its still surface in another frame.
+// Returns for each pixel whether its surface is static and the body hides that surface in the frame `other`.
 std::vector<bool> hidden_in(const MoverFrame& now, const MoverFrame& other) {
   const std::vector<EarlierPixels> earlier = earlier_pixels(now.view, other.view);
   const Camera& camera = other.view.camera;

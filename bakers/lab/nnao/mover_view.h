@@ -1,4 +1,4 @@
-// Frames of a body that moves in a still scene, with motion vectors and ray-traced AO.
+// Makes frames of a body that moves in a static scene, with motion vectors and ray-traced AO.
 #pragma once
 
 #include <array>
@@ -20,17 +20,18 @@ struct MovingBody {
 struct WalkSettings {
   std::size_t frames = 8;
   float frame_s = 1.0f / 30;  // seconds between frames
-  float phase = 0;            // place of the sequence in the clip, 0 to 1; at 1 it ends with the clip
-  float heading = 0;          // turns the body, which looks along +z, about the vertical axis; radians
+  float phase = 0;            // position of the sequence in the clip, 0 to 1; at 1 both end together
+  float heading = 0;          // rotation about the vertical axis, radians; at 0 the body looks along +z
   float speed_mps = 1.4f;     // along its heading, metres per second
 };
 
-// Poses the character by its clip. In the last frame, it stands at the world's origin.
+// Poses the character by its clip. In the last frame, the character stands at the world's origin.
 MovingBody walking_body(const bake::ImportedCharacter& character, std::size_t clip,
                         const WalkSettings& settings);
 
-// Returns the clip with this name. empty: the first clip whose name contains `walk`, in either case, or else
-// the first clip. Throws Failure: INVALID_ARGUMENT with the existing names, BAD_FILE without any clip.
+// Returns the index of the clip with this name. If `name` is empty, returns the first clip whose name
+// contains `walk` (case-insensitive), or the first clip if there is none. Throws Failure: INVALID_ARGUMENT,
+// with the existing names, if no clip has the name, and BAD_FILE if the character has no clips.
 std::size_t walking_clip(const bake::ImportedCharacter& character, const std::string& name);
 
 // The part of the image to which a pixel of the last frame belongs.
@@ -38,24 +39,24 @@ enum class MoverPart : std::uint8_t {
   sky,
   mover,      // the body
   uncovered,  // hidden by the body in a recent frame
-  beside,     // within the radius of a vertex of the body in this or a recent frame, so that its AO changes
+  beside,  // within the AO radius of a vertex of the body, in this or a recent frame, so that the AO changes
   elsewhere
 };
 inline constexpr std::size_t mover_part_count = 5;
 
-// Frames before the last that count as recent.
+// The number of frames before the last one that count as recent.
 inline constexpr std::size_t recent_frames = 3;
 
 struct MoverView {
-  MeasuredView measured;  // the last frame with its reference, and the frames before as its path
-  // For each frame and pixel: how far its surface moved since the frame before, in pixels to the right and
-  // up. The values are 0 in the first frame and for the sky.
+  MeasuredView measured;  // the last frame with its reference; the earlier frames are its path
+  // For each frame and pixel, the motion of its surface since the previous frame: pixels to the right, and
+  // pixels up. Both values are 0 in the first frame and for the sky.
   std::vector<std::vector<float>> motion;
   std::vector<MoverPart> part;  // for each pixel of the last frame
 };
 
-// camera: for the last frame. settings: its path may move the camera as well, and must have as many frames as
-// the body. Throws Failure (INVALID_ARGUMENT) otherwise.
+// `camera` is the camera of the last frame. The path in `settings` may move the camera as well. The path must
+// have as many frames as the body; otherwise throws Failure (INVALID_ARGUMENT).
 MoverView trace_mover(const bake::TriangleSoup& still, const MovingBody& body,
                       const bake::nnao::Camera& camera, const TruthSettings& settings);
 

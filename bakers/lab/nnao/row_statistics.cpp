@@ -15,7 +15,7 @@ namespace {
 
 constexpr double smallest_error = 1e-9;
 
-// Logarithms of the ratios of one source's views.
+// The logarithms of the ratios, for the views of one source.
 struct Source {
   std::string name;
   std::vector<double> log_ratio;
@@ -44,8 +44,8 @@ double drawn_mean(const std::vector<double>& values, bake::Random& random) {
   return sum / double(values.size());
 }
 
-// Returns the sorted means over sources of `draws` resamples of the views. sources_too: resamples the sources
-// as well.
+// Resamples the views `draws` times, and returns the sorted means over the sources. If `sources_too` is true,
+// it resamples the sources as well.
 std::vector<double> drawn_means(const std::vector<Source>& sources, bool sources_too, std::uint64_t seed) {
   bake::Random random(seed);
   std::vector<double> means(bootstrap_draws);

@@ -1,5 +1,5 @@
-// Rows of reports over several sources: ratios of errors with their bounds, means that skip what a source
-// lacks, and numbers for tables.
+// Statistics for report rows over several sources: ratios of errors with confidence bounds, means that skip
+// missing values, and numbers formatted for tables.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace nook::lab {
 
 // The errors of two methods in one view.
 struct ErrorPair {
-  std::string source;  // source of the scene; views of one source resemble each other
+  std::string source;  // source of the scene; views of the same source resemble each other
   double error = 0, reference = 0;
 };
 
@@ -27,13 +27,14 @@ struct SourceRatio {
   double ratio = 0;  // geometric mean over its views
 };
 
-// The ratio of two methods' errors over many views: a geometric mean with a bootstrap's bounds.
+// The ratio of two methods' errors over many views, as a geometric mean with bootstrap bounds.
 struct RatioStatistics {
-  // The geometric mean of the sources' ratios. Sources have equal weights, however many views they have.
+  // The geometric mean of the sources' ratios. All sources have the same weight, however many views they
+  // have.
   double ratio = 1;
   // The 5 % and 95 % quantiles of this mean when the views within each source are resampled.
   double lower_95 = 1, upper_95 = 1;
-  // The upper quantile when the sources are resampled as well: the bound for other scenes.
+  // The 95 % quantile when the sources are resampled as well. Use it as the bound for other scenes.
   double upper_95_sources = 1;
   std::size_t views = 0;
   std::vector<SourceRatio> sources;  // in the order of their first views
@@ -41,11 +42,12 @@ struct RatioStatistics {
 
 inline constexpr std::size_t bootstrap_draws = 10000;
 
-// Always draws a pair's two errors together. The result depends only on the pairs and the seed. pairs: one or
-// more. Errors below 1e-9, far below a grey level squared, count as 1e-9.
+// The bootstrap always draws the two errors of a pair together. The result depends only on the pairs and the
+// seed. `pairs` must not be empty. Errors below 1e-9 count as 1e-9, which is far below the square of one grey
+// level.
 RatioStatistics compare_errors(std::span<const ErrorPair> pairs, std::uint64_t seed);
 
-// Returns the names of all items, each once, in the order of their first items.
+// Returns the distinct names of the items, in the order of their first occurrence.
 template <typename Item>
 std::vector<std::string> distinct_names(std::span<const Item> items, std::string Item::*name) {
   std::vector<std::string> names;
@@ -54,15 +56,15 @@ std::vector<std::string> distinct_names(std::span<const Item> items, std::string
   return names;
 }
 
-// null before the first value.
+// Returns null if no value was added.
 nlohmann::ordered_json mean_or_null(const measure::Mean& mean);
 
-// Returns the mean of each column over the rows that have a number there. Other members come from the first
-// row. rows: one or more, with all columns.
+// Returns the mean of each column, over the rows that have a number in that column. Other members are copied
+// from the first row. `rows` must not be empty, and each row must have all columns.
 nlohmann::ordered_json mean_row(std::span<const nlohmann::ordered_json> rows,
                                 std::span<const std::string> columns);
 
-// Formats a member by a printf format for a double; "-" without a number.
+// Formats a member with a printf format for a double. Returns "-" if the member is not a number.
 std::string table_number(const nlohmann::ordered_json& row, const char* key, const char* format);
 
 }  // namespace nook::lab

@@ -3,10 +3,10 @@
 namespace nook::lab {
 namespace {
 
-// Printed by `nook-lab evaluate nnao --tune all`, seed 1.
+// `nook-lab evaluate nnao --tune all` with seed 1 prints these rows.
 constexpr BaselineMethod methods[] = {
 #include "bakers/lab/nnao/baseline_tuning.inl"
-    // Documented defaults, with lengths divided by the radius.
+    // The shipped settings: documented defaults, with lengths divided by the radius.
     //   N8AO      README of 2.0.0, quality Medium, falloff 1 of radius 5, intensity 5
     //   S4AO      Godot's Environment and pull request 109447, quality Medium, intensity 2
     //   VTK       vtkSSAOPass.h, 32 points, no blur; a bias of a hundredth of the radius, as in Kitware's article
@@ -108,7 +108,7 @@ BaselineGrid baseline_grid(Baseline baseline, int taps) {
 
 std::string baseline_defines(const BaselineMethod& method) {
   std::string defines = define("NOOK_BORDER", int(method.tuning.border));
-  // The spiral of Filament's qualities Low and Ultra.
+  // The numbers of spiral turns of Filament's qualities Low and Ultra.
   if (method.baseline == Baseline::filament) return defines + define("NOOK_TURNS", method.taps < 32 ? 3 : 14);
   if (method.baseline != Baseline::xegtao) return defines;
   return defines + define("NOOK_STEPS", baseline_grid(method.baseline, method.taps).steps) +
@@ -121,7 +121,7 @@ std::span<const BaselineMethod> baseline_methods() {
 
 int baseline_fetches(const BaselineMethod& method, bool denoised) {
   const bool xegtao = method.baseline == Baseline::xegtao;
-  // The levels of depth take 1 + 1 + 1/4 + 1/16 + 1/64 fetches.
+  // XeGTAO's depth levels take 1 + 1 + 1/4 + 1/16 + 1/64 fetches per pixel, which are counted as 3.
   int fetches = 2 + method.taps + (xegtao ? 3 + 4 + 1 : 0);
   if (!denoised) return fetches;
   switch (method.tuning.denoiser) {
@@ -136,7 +136,7 @@ int baseline_fetches(const BaselineMethod& method, bool denoised) {
     case Denoiser::gaussian:
       return fetches + 2 * (2 + 2 * 10);
     default:
-      if (!xegtao) fetches += 5;  // depths, for the edges
+      if (!xegtao) fetches += 5;  // depths for the edge detection
       return fetches + edge_passes(method.tuning.denoiser) * (9 + 5);
   }
 }

@@ -1,4 +1,5 @@
-// The methods that the screen-space network is compared with, each tuned and otherwise as published.
+// The methods that the screen-space network is compared with. Their parameters are tuned; everything else is
+// as published.
 #pragma once
 
 #include <span>
@@ -6,7 +7,7 @@
 
 namespace nook::lab {
 
-// Applications and engines ship the methods from n8ao to filament.
+// Applications and engines ship n8ao, s4ao, vtk, qgis and filament.
 enum class Baseline { ssao, ssao_plus, hbao, n8ao, s4ao, vtk, qgis, filament, gtao, bitmask, xegtao };
 inline constexpr Baseline all_baselines[] = {
     Baseline::ssao, Baseline::ssao_plus, Baseline::hbao, Baseline::n8ao,    Baseline::s4ao,  Baseline::vtk,
@@ -15,21 +16,22 @@ inline constexpr Baseline all_baselines[] = {
 const char* baseline_name(Baseline baseline);    // in tables
 const char* baseline_shader(Baseline baseline);  // in shaders/
 
-// What a tap beyond the screen meets: nothing; the nearest pixel on the screen, at that pixel's place; or
-// that pixel's depth at the tap's place, like a clamping sampler. The values are NOOK_BORDER's.
+// What a tap outside the screen reads. `nothing`: the tap finds no surface. `pixel`: the tap moves to the
+// nearest pixel on the screen. `depth`: the tap stays in place and uses the depth of that pixel, like a
+// clamping sampler. The values are those of the shader macro NOOK_BORDER.
 enum class Border { nothing, pixel, depth };
 inline constexpr Border all_borders[] = {Border::nothing, Border::pixel, Border::depth};
 const char* border_name(Border border);
 
-// The bilateral blur over 7 x 7 pixels smooths the noise, or XeGTAO's edge-aware denoiser over 3 x 3, which
-// runs as often as its value says. Shipped methods have their own: the mean of 4 x 4 pixels (VTK, QGIS),
-// N8AO's disc, Filament's bilateral Gaussian, or none (S4AO, VTK).
+// How the noise is removed. `blur` is a bilateral blur over 7 x 7 pixels. `edges_1` to `edges_3` run XeGTAO's
+// edge-aware denoiser over 3 x 3 pixels one to three times. Shipped methods have their own denoisers: the
+// mean of 4 x 4 pixels (VTK, QGIS), N8AO's disc, Filament's bilateral Gaussian, or none (S4AO, VTK).
 enum class Denoiser { blur, edges_1, edges_2, edges_3, none, box, disc, gaussian };
 inline constexpr Denoiser all_denoisers[] = {Denoiser::blur,    Denoiser::edges_1, Denoiser::edges_2,
                                              Denoiser::edges_3, Denoiser::none,    Denoiser::box,
                                              Denoiser::disc,    Denoiser::gaussian};
 const char* denoiser_name(Denoiser denoiser);
-// Returns how often the edge-aware denoiser runs.
+// Returns the number of passes of the edge-aware denoiser.
 constexpr int edge_passes(Denoiser denoiser) {
   return denoiser <= Denoiser::edges_3 ? int(denoiser) : 0;
 }
@@ -38,8 +40,8 @@ std::span<const Denoiser> denoisers_of(Baseline baseline);
 
 // The parameters that the search chooses.
 struct BaselineTuning {
-  float radius_scale = 1;  // the method's radius over the radius of the request
-  float power = 1;         // power of the result
+  float radius_scale = 1;  // radius of the method divided by the radius of the request
+  float power = 1;         // exponent applied to the AO
   // The method's own parameter:
   //   SSAO+, VTK, Filament  bias in radii
   //   HBAO                  bias in radians
@@ -51,10 +53,11 @@ struct BaselineTuning {
   // SSAO has none.
   float shape = 0;
   float thin = 0;              // XeGTAO's compensation for thin occluders
-  bool equal_weights = false;  // bitmask: sectors have equal cosine-weighted shares; otherwise equal angles
+  bool equal_weights = false;  // bitmask: sectors of equal cosine-weighted shares instead of equal angles
   Border border = Border::nothing;
   Denoiser denoiser = Denoiser::blur;
-  // A factor of the darkness, for S4AO and QGIS. The search leaves it at 1, because contrast does as well.
+  // A factor of the occlusion, for S4AO and QGIS. The search leaves it at 1, because changing `power` works
+  // as well.
   float strength = 1;
 
   bool operator==(const BaselineTuning&) const = default;
@@ -64,7 +67,7 @@ struct BaselineMethod {
   Baseline baseline;
   int taps;
   BaselineTuning tuning;
-  bool shipped = false;  // with the default settings of the program that ships it
+  bool shipped = false;  // uses the default settings of the program that ships it
 };
 std::string baseline_row(const BaselineMethod& method);  // name in tables, with "_shipped" for shipped
                                                          // settings
@@ -75,17 +78,18 @@ struct BaselineGrid {
 };
 BaselineGrid baseline_grid(Baseline baseline, int taps);
 
-// Returns lines before the shader's text: what is known at compile time.
+// Returns the #define lines that go before the shader's text.
 std::string baseline_defines(const BaselineMethod& method);
 
-// Every row of the comparison: first with the tuning that `nook-lab evaluate nnao --tune all` prints, then
-// with the shipped settings.
+// Returns all rows of the comparison. First come the methods with the tuning that `nook-lab evaluate nnao
+// --tune all` prints, then those with shipped settings.
 std::span<const BaselineMethod> baseline_methods();
 
-// Returns the texels read per pixel: its depth and normal, and one depth per tap. XeGTAO also reads its depth
-// levels, four neighbours and noise. denoised: includes the denoiser.
+// Returns the number of texels read per pixel: the pixel's depth and normal, and one depth per tap. XeGTAO
+// also reads its depth levels, four neighbours and noise. If `denoised` is true, the fetches of the denoiser
+// are included.
 int baseline_fetches(const BaselineMethod& method, bool denoised);
-// Two axes, each with AO, depth and normal of 7 pixels.
+// The blur has two passes, one per axis. Each pass reads AO, depth and normal of 7 pixels.
 inline constexpr int blur_fetches = 2 * 3 * 7;
 // Number of passes of N8AO's disc.
 inline constexpr int disc_passes = 2;

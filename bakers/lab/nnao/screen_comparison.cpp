@@ -24,11 +24,11 @@ struct Method {
   int taps = 0;
   std::function<GLuint(const GpuView&, const AoRequest&, bool)> draw;
   int fetches_raw = 0, fetches_blurred = 0;
-  std::string denoiser;    // denoiser of the blurred row
-  bool is_oracle = false;  // drawn once per view: no blur, no flicker
+  std::string denoiser;    // denoiser that the blurred row uses
+  bool is_oracle = false;  // drawn only once per view, without blur and flicker
 };
 
-// Holds the view, and the same view with the image slid by one pixel.
+// Holds a view, and the same view with the image shifted by one pixel.
 struct ViewOnGpu {
   ViewOnGpu(const GladGLContext& gl, const MeasuredView& measured)
       : view(gl, measured.view), slid(gl, measured.slid) {}
@@ -67,7 +67,7 @@ ComparisonRow measure(const GladGLContext& gl, const Method& method, bool blurre
     const GpuView& view = images[v].view;
     request.radius = views[v].radius;
     GLuint texture = 0;
-    // The first frame of a method does not count, because drivers compile then.
+    // The first frame of a method is not timed, because the driver compiles shaders in it.
     if (v == 0 && !method.is_oracle) method.draw(view, request, blurred);
     for (int i = 0; i < frames; ++i)
       measured.ms.push_back(timed_draw(gl, [&] { texture = method.draw(view, request, blurred); }));

@@ -14,14 +14,14 @@
 
 namespace nook::lab {
 
-// A method's numbers over one view, or over several.
+// The measured values of a method, over one view or several.
 struct Measurement {
   measure::ImageError error;
   BorderBias border;
   Calibration calibration;
-  std::vector<double> flicker;  // per view: mean |change| of a surface's AO when the image slides by one
-                                // pixel; empty for an oracle
-  std::vector<double> ms;       // wall clock of each frame, including glFinish
+  std::vector<double>
+      flicker;  // per view: mean |change| of AO when the image shifts by a pixel; empty for oracles
+  std::vector<double> ms;  // wall-clock time of each frame, including glFinish
 
   void add(const Measurement& other);
   double mean_flicker() const;
@@ -34,25 +34,25 @@ struct ComparisonRow {
   bool blurred = false;
   int fetches = 0;                 // per pixel
   std::vector<Measurement> views;  // in the order of the views
-  std::string denoiser;            // the tuned denoiser of a baseline, the library's, or none
+  std::string denoiser;            // the tuned denoiser of a baseline, the library's denoiser, or none
 };
 
-// Returns a row's numbers over some views. which: indices of views.
+// Returns the combined measurement of a row over the views with the indices `which`.
 Measurement pooled(const ComparisonRow& row, std::span<const std::size_t> which);
 
-// Names further rows of the embedded network: at half resolution, and with the filter twice.
+// Names of two more rows of the embedded network: at half resolution, and with the filter run twice.
 inline constexpr char half_name[] = "nnao_half", twice_name[] = "nnao_twice";
 
 struct ComparisonSettings {
-  measure::AoRequest request;            // uses each view's radius
-  std::vector<std::byte> other_network;  // a network file to compare with the embedded one; empty: none
+  measure::AoRequest request;            // its radius is replaced by the radius of each view
+  std::vector<std::byte> other_network;  // a network file to compare with the embedded network, or empty
   std::string other_name;                // in tables
-  // Names as in tables, or name:taps. empty: all but the oracles; so does "all".
+  // Names as in tables, or name:taps. If empty, or "all", measures all methods except the oracles.
   std::vector<std::string> methods;
-  bool raw = true;  // also measure each method without its blur
+  bool raw = true;  // also measures each method without its blur
 };
 
-// A method's AO of a view, for pictures.
+// The AO image of one view by one method, for pictures.
 struct KeptImage {
   std::string method;
   int taps = 0;
@@ -65,8 +65,8 @@ struct Comparison {
   std::vector<KeptImage> images;  // blurred
 };
 
-// keep: keeps a method's blurred images. Views need one size. progress counts methods; false stops, which
-// throws Failure(CANCELLED).
+// `keep` says for which methods the blurred images are kept. All views must have the same size. `progress`
+// counts methods. If it returns false, the function throws Failure(CANCELLED).
 Comparison compare(platform::Context& context, std::span<const MeasuredView> views,
                    const ComparisonSettings& settings,
                    const std::function<bool(const std::string& method, int taps)>& keep,

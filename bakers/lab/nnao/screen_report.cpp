@@ -18,7 +18,7 @@ bool same_method(const Json& a, const Json& b) {
   return a["method"] == b["method"] && a["taps"] == b["taps"] && a["blurred"] == b["blurred"];
 }
 
-// Returns a number with two decimals and a short exponent: 7.97e-3.
+// Formats a value with two decimals and a short exponent, such as 7.97e-3.
 std::string short_power(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2e", value);
@@ -103,7 +103,7 @@ std::string ratio_table(const Json& ratios) {
   return text;
 }
 
-// Returns the time of nnao with 64 taps, or `own` without it.
+// Returns the time of nnao with 64 taps, or `own` if nnao was not measured with 64 taps.
 double reference_ms(const Comparison& comparison, const ViewGroup& group, bool blurred, double own) {
   for (const ComparisonRow& row : comparison.rows)
     if (row.method == "nnao" && row.taps == 64 && row.blurred == blurred)
@@ -111,7 +111,7 @@ double reference_ms(const Comparison& comparison, const ViewGroup& group, bool b
   return own;
 }
 
-// Returns the views of the groups that count for means.
+// Returns the views of all groups that count for means.
 std::vector<std::size_t> counted_views(std::span<const ViewGroup> groups) {
   std::vector<std::size_t> views;
   for (const ViewGroup& group : groups)
@@ -119,7 +119,7 @@ std::vector<std::size_t> counted_views(std::span<const ViewGroup> groups) {
   return views;
 }
 
-// Returns the row that stands for a method in ratios, or null.
+// Returns the row that represents a method in ratios, or null if there is none.
 const ComparisonRow* find_row(const Comparison& comparison, const std::string& method, int taps) {
   const ComparisonRow* found = nullptr;
   for (const ComparisonRow& row : comparison.rows)

@@ -22,10 +22,10 @@ constexpr int measured_taps[] = {9, 16, 32, 64};
 constexpr std::size_t measured_paths[] = {4, sequence_frames};  // frames
 constexpr int longest_mean = 8;                                 // nook_nnao_desc.max_history_frames
 
-// The frames of a path in order; the view is the last.
+// The frames of a path in order. The last frame is the view.
 struct Path {
   std::vector<const TracedView*> frames;
-  std::vector<std::vector<EarlierPixels>> earlier;  // for each frame but the first
+  std::vector<std::vector<EarlierPixels>> earlier;  // for each frame except the first
 };
 
 Path path_of(const MeasuredView& view) {
@@ -94,7 +94,7 @@ const SequenceError& error_of(const SequenceView& view, int taps, int frames) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sequences: no row of %d taps and %d frames", taps, frames);
 }
 
-// The mean of a column over views, without views that lack the column's pixels.
+// Returns a column's value for one view and pass.
 using Column = std::function<double(const SequenceView&, const SequenceError&)>;
 struct NamedColumn {
   const char* name;
@@ -144,7 +144,7 @@ std::vector<std::string> mean_columns() {
   return names;
 }
 
-// Compares a pass with another, over all pixels or the disoccluded ones.
+// A ratio of the errors of two passes, over all pixels or only over disoccluded pixels.
 struct SequenceRatio {
   int taps, frames, over_taps, over_frames;
   bool disoccluded;
@@ -275,7 +275,8 @@ SequenceView measure_sequence(platform::Context& context, const MeasuredView& vi
     measured.disoccluded += disoccluded(i);
   }
 
-  // Each path has its own pass, because the noise of a frame depends on the frames that a pass has drawn.
+  // Each path gets a new pass, because the noise of a frame depends on the frames that the pass has drawn
+  // before.
   const NookGl nook_gl(context);
   const auto add = [&](const NetworkForm& form, std::size_t first, int frames) {
     NetworkPass pass(nook_gl, width, height, form, {}, request.blur_sharpness);

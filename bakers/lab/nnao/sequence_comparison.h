@@ -1,5 +1,5 @@
-// Measures means of AO over the frames of a moving camera, against ray tracing and against the same pass
-// without them.
+// Measures temporally accumulated AO while the camera moves. The report compares it with ray tracing, and
+// with the same pass without accumulation.
 #pragma once
 
 #include <cstdint>
@@ -14,35 +14,37 @@
 
 namespace nook::lab {
 
-// A view is the last of this many frames.
+// Number of frames in a sequence. The measured view is the last one.
 inline constexpr std::size_t sequence_frames = 8;
 
 // The result of a pass at the end of a path.
 struct SequenceError {
   int taps = 0;
-  int frames = 1;  // frames from the cut to the view; 1: each frame alone
+  int frames = 1;  // number of frames since the camera cut; 1: each frame alone
   double mse = 0;
-  double disoccluded_mse = 0;  // over surfaces that the frame before does not show; 0 without any
+  double disoccluded_mse = 0;  // over surfaces that the previous frame does not show; 0 if there are none
   double change = 0;           // mean change of a surface's AO between frames
 };
 
 struct SequenceView {
   std::string scene, source, camera;
-  double step_px = 0;  // mean motion on the screen between frames, over surfaces that both show
+  double step_px = 0;  // mean motion on the screen between frames, over surfaces that both frames show
   std::size_t surfaces = 0, disoccluded = 0;  // pixels
   std::vector<SequenceError> errors;
 };
 
-// The view needs a path of sequence_frames. Draws the pass by the public interface, with the embedded
-// network. The request uses the view's radius.
+// The path of the view must have sequence_frames frames. Draws the pass through the public interface, with
+// the embedded network. The radius of the request is replaced by the radius of the view.
 SequenceView measure_sequence(platform::Context& context, const MeasuredView& view,
                               measure::AoRequest request);
 
-// Views with fewer disoccluded pixels do not count in ratios over them, because they would be chance.
+// Views with fewer disoccluded pixels are left out of the ratios over disoccluded pixels, because their
+// errors would be mostly noise.
 inline constexpr std::size_t fewest_disoccluded = 100;
 
-// Members `rows`: means over each source's views and over the sources, with the columns of
-// docs/lab/nnao_protocol.md; `ratios`: of errors; `views`: each view and pass. views: one or more.
+// Returns an object with three members. `rows` has the means over the views of each source, and over all
+// sources, with the columns of docs/lab/nnao_protocol.md. `ratios` has ratios of errors. `views` has one
+// entry for each view and pass. The argument `views` must not be empty.
 nlohmann::ordered_json sequence_report(std::span<const SequenceView> views, std::uint64_t seed);
 
 std::string sequence_markdown(const nlohmann::ordered_json& report);

@@ -15,8 +15,8 @@ using namespace bake;
 
 namespace {
 
-// The same as in the training set: far above the rounding of hits a few metres away, and far below the size
-// of objects.
+// The training set uses the same value. It is far above the rounding errors of hits a few metres away, and
+// far below the size of objects.
 constexpr float origin_offset = 3e-4f;
 
 struct Surfaces {
@@ -74,8 +74,8 @@ Camera slid_by_one_pixel(Camera camera) {
 }
 
 TrainingScene scene_to_look_at(TriangleSoup soup) {
-  // Small objects have most vertices, and backdrops have most area. Choosing half of the points by vertices
-  // and half by area also finds objects between.
+  // Small objects have most of the vertices, and backdrops have most of the area. Half of the points are
+  // chosen by vertices and half by area, so that objects of medium size are found too.
   std::vector<double> area_below;
   double area = 0;
   for (const auto& t : soup.triangle) {

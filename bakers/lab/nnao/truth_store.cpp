@@ -10,7 +10,7 @@
 namespace nook::lab {
 namespace {
 
-// Raise it whenever the reference of the same settings changes.
+// Increment this whenever the same settings lead to a different reference.
 constexpr std::uint32_t version = 1;
 
 std::uint64_t key_of(std::uint64_t scene, const bake::nnao::Camera& camera, const TruthSettings& settings) {
@@ -34,7 +34,8 @@ std::filesystem::path file_of(const std::filesystem::path& folder, std::uint64_t
   return folder / name;
 }
 
-// Reads the file: noise (64 bits), AO of each pixel (32 bits each), hash of these bytes and the key.
+// Reads a cached file. It contains the noise (64 bits), the AO of each pixel (32 bits each), and a hash of
+// these bytes and the key.
 Truth unpack(std::span<const std::byte> bytes, std::uint64_t key, std::size_t pixels) {
   ByteReader reader(bytes, "truth");
   Truth truth;
@@ -74,7 +75,7 @@ Truth TruthStore::read_or_trace(const bake::nnao::Camera& camera, const TruthSet
       const std::vector<unsigned char> bytes = platform::read_file(file);
       return unpack(std::as_bytes(std::span(bytes)), key, std::size_t(camera.width) * camera.height);
     } catch (const Failure&) {
-      // The file is replaced below.
+      // The damaged file is replaced below.
     }
   }
   Truth truth = trace();

@@ -1,4 +1,5 @@
-// Keeps references in a folder, because tracing takes most of the time of a second measurement.
+// Caches references in a folder. Without the cache, a repeated measurement would spend most of its time on
+// tracing.
 #pragma once
 
 #include <filesystem>
@@ -15,9 +16,10 @@ struct TruthSettings {
   std::uint32_t rays = 128;
   float radius = 0.5f;  // metres
   std::uint64_t seed = 1;
-  // > 0: also traces bent normals and reflections, at every n-th pixel of both axes. They are not kept.
+  // If this is n > 0, bent normals and reflections are traced at every n-th pixel of every n-th row. They are
+  // not cached.
   std::uint32_t bent_stride = 0;
-  PathSettings path;  // path to the view
+  PathSettings path;  // camera path that ends at the view
 };
 
 struct Truth {
@@ -27,12 +29,13 @@ struct Truth {
 
 class TruthStore {
  public:
-  TruthStore() = default;  // keeps nothing
-  // The folder must exist; empty: keeps nothing.
+  TruthStore() = default;  // caches nothing
+  // The folder must exist. If it is empty, nothing is cached.
   TruthStore(std::filesystem::path folder, const bake::TriangleSoup& scene);
 
-  // Returns the reference of the same triangles, camera and settings from the folder. Otherwise, returns and
-  // keeps what trace returns. A damaged file is traced again.
+  // Returns the cached reference if the folder has one for the same triangles, camera and settings. Otherwise
+  // calls `trace`, caches the result and returns it. The reference is also traced again if its file is
+  // damaged.
   Truth read_or_trace(const bake::nnao::Camera& camera, const TruthSettings& settings,
                       const std::function<Truth()>& trace) const;
 

@@ -17,7 +17,7 @@ using namespace measure;
 
 namespace {
 
-// Steps of a twentieth of a decade.
+// Neighbouring values differ by a twentieth of a decade, which is a factor of 1.12.
 constexpr float radius_scales[] = {0.28f, 0.32f, 0.36f, 0.40f, 0.45f, 0.50f, 0.56f, 0.63f, 0.71f, 0.80f,
                                    0.90f, 1.00f, 1.12f, 1.26f, 1.41f, 1.60f, 1.80f, 2.00f, 2.24f, 2.50f,
                                    2.80f, 3.20f, 3.60f, 4.00f, 4.50f, 5.00f, 5.60f, 6.30f, 7.10f, 8.00f};
@@ -130,8 +130,8 @@ struct ViewOnGpu {
   GpuView image;
 };
 
-// The number of pixels with each of the 256 values of AO, and the sum of their truth. They give the error
-// after any function of the AO.
+// For each of the 256 AO values, stores how many pixels have it and the sum of their true AO. From these, the
+// error can be computed after any function is applied to the AO.
 class TruthByLevel {
  public:
   void add(const std::vector<float>& ao, const MeasuredView& measured) {
@@ -146,7 +146,7 @@ class TruthByLevel {
     }
   }
 
-  // Returns the mean squared error of AO raised to a power.
+  // Returns the mean squared error after AO is raised to a power.
   double mse(double power) const {
     double sum = squared_truth_;
     for (std::size_t i = 0; i < levels_.size(); ++i) {
@@ -169,9 +169,10 @@ struct Found {
   double mse = never;
 };
 
-// One method on some of the views. It estimates the best contrast of each place from its image. The shaders
-// apply the contrast before the denoiser, but the estimate applies it afterwards. settled: draws the image
-// again with the estimate until it stays the same.
+// Searches for the tuning of one method on some of the views. It estimates the best contrast of each place
+// from the drawn image. The estimate applies the contrast after the denoiser, whereas the shaders apply it
+// before. If `settled` is true, the search redraws the image with the estimated contrast until the estimate
+// no longer changes.
 class Search {
  public:
   Search(const GladGLContext& gl, BaselinePass& pass, const std::deque<ViewOnGpu>& views, std::size_t every,
@@ -180,7 +181,7 @@ class Search {
     for (std::size_t v = 0; v < views.size(); v += every) views_.push_back(&views[v]);
   }
 
-  // Finds the best contrast at the place, and its error.
+  // Finds the best contrast for the other parameters of a place, and returns the error with it.
   Found with_best_power(TuningPlace place) {
     Found found = estimate(place);
     if (!settled_) return found;
@@ -188,11 +189,11 @@ class Search {
     return {place, mse(place)};
   }
 
-  // Returns the error of a place without changes.
+  // Returns the error of exactly this place.
   double mse(const TuningPlace& place) { return drawn(place).mse(1); }
 
-  // Returns whether a place is on the grids and, with its best contrast, better than `best`. If so, `best`
-  // moves there.
+  // Checks whether a place is on the grids and, with its best contrast, better than `best`. If so, sets
+  // `best` to the place and returns true.
   bool improve(Found& best, const TuningPlace& place) {
     for (std::size_t axis = 0; axis < tuned_axes; ++axis)
       if (place.at[axis] < 0 || place.at[axis] >= int(axis_values(method_.baseline, axis).size()))
@@ -203,7 +204,7 @@ class Search {
     return true;
   }
 
-  // Continues in each direction while it helps, until none does.
+  // Moves `best` along each step for as long as the error falls. Ends when no step lowers the error.
   void descend(Found& best, const std::vector<Step>& steps) {
     for (bool moved = true; moved;) {
       moved = false;
@@ -217,7 +218,7 @@ class Search {
     }
   }
 
-  // Tries parameters that are not numbers. Returns whether something helped.
+  // Tries other values of the non-numeric parameters. Returns whether one of them lowered the error.
   bool flip(Found& best) {
     bool better = false;
     for (const Border border : all_borders) {
@@ -270,7 +271,7 @@ class Search {
   std::map<TuningPlace, TruthByLevel> known_;
 };
 
-// Steps radii and shapes, alone and together. Grids of shapes are coarser.
+// Returns steps of radius and shape, alone and combined. The shape grids are coarser than the radius grid.
 std::vector<Step> steps(Baseline baseline, int stride) {
   const int small = std::max(stride / 2, 1);
   std::vector<Step> all{{stride, 0, 0, 0}, {-stride, 0, 0, 0}};
@@ -289,8 +290,8 @@ std::vector<Step> steps(Baseline baseline, int stride) {
   return all;
 }
 
-// Valleys have two ends: small radii with steep falloffs, and large ones with soft falloffs. The search goes
-// down from both.
+// The error often has two minima: small radii with steep falloffs, and large radii with soft falloffs. The
+// search therefore descends from two starts. It also tries the places in `before`.
 Found search_some(Search& search, Baseline baseline, const std::vector<TuningPlace>& before) {
   TuningPlace wide = first_place(baseline);
   wide.at[0] += 6;
@@ -307,7 +308,7 @@ Found search_some(Search& search, Baseline baseline, const std::vector<TuningPla
   return best;
 }
 
-// Returns the best result of each denoiser, the overall best first.
+// Returns the best result with each denoiser, sorted by error.
 std::vector<Found> by_denoiser(Search& search, Baseline baseline, const Found& start) {
   std::vector<Found> found;
   for (const Denoiser denoiser : denoisers_of(baseline)) {
@@ -323,7 +324,8 @@ std::vector<Found> by_denoiser(Search& search, Baseline baseline, const Found& s
   return found;
 }
 
-// Denoisers within this factor of the best on a part of the views are compared on all.
+// Denoisers whose error on the subset of views is within this factor of the best are compared again on all
+// views.
 constexpr double near_best = 1.02;
 
 Found tune(const GladGLContext& gl, BaselinePass& pass, const std::deque<ViewOnGpu>& views,
@@ -340,7 +342,7 @@ Found tune(const GladGLContext& gl, BaselinePass& pass, const std::deque<ViewOnG
   do {
     all.descend(best, steps(method.baseline, 1));
   } while (all.flip(best));
-  // The estimate of the contrast is wrong where the denoiser mixes much.
+  // The estimated contrast is inaccurate for strong denoisers, so neighbouring values are tried as well.
   for (const int turn : {1, -1}) {
     TuningPlace place = best.place;
     place.at[power_axis] += turn;

@@ -52,8 +52,8 @@ namespace {
 
 constexpr int tile_px = 124;
 
-// Returns a tile's values. 0 is the middle grey, and the largest magnitude is black or white. (0, 0) is the
-// lower left corner.
+// Returns the value at a pixel of a tile, where (0, 0) is the lower left corner. The value 0 is drawn as
+// middle grey. The values are scaled so that the largest magnitude becomes black or white.
 using Tile = std::function<float(int x_px, int y_px)>;
 
 void paste_tile(platform::Image& sheet, int left, int top, const Tile& tile) {
@@ -131,7 +131,7 @@ platform::Image unit_picture(const Network& network, const MeasuredView& measure
         const float low = sorted[u][sorted[u].size() / 100], high = sorted[u][sorted[u].size() * 99 / 100];
         const float share =
             std::clamp((units[view.at(x, y)][u] - low) / std::max(high - low, 1e-12f), 0.0f, 1.0f);
-        // Cyan, magenta and yellow take away red, green and blue.
+        // Cyan absorbs red, magenta absorbs green, and yellow absorbs blue.
         image.pixels[3 * view.at(x, view.height - 1 - y) + u] = std::uint8_t(std::lround(255 * (1 - share)));
       }
     }

@@ -1,5 +1,5 @@
-// Points of the unit ball, spread evenly over directions. Their distances from the centre are spread evenly
-// too, so that they are denser near it. Neighbouring pixels mirror the points on different planes.
+// Points in the unit ball, spread evenly over directions. Their distances from the centre are spread evenly
+// too, so the points are denser near the centre. Neighbouring pixels mirror the points at different planes.
 vec3 on_sphere(float share, float turn) {
   float z = 1.0 - 2.0 * share;
   float angle = 6.2831853 * turn;

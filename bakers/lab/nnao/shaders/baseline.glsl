@@ -1,17 +1,18 @@
-// Code that the baselines share. Each defines baseline_ao, which is called for pixels with a surface.
+// Code that the baselines share. Each baseline defines baseline_ao, which this file calls for pixels with a
+// surface.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
-uniform float radius_scale;  // the tuned radius over the radius of the request
-uniform float power;         // the tuned contrast
+uniform float radius_scale;  // tuned radius divided by the radius of the request
+uniform float power;         // tuned exponent of the AO
 uniform int groups;          // groups of taps: directions, slices, or 1
-uniform int steps;           // taps in a group; in one half of a slice
+uniform int steps;           // taps per group, or per half of a slice
 
 out float result;
 
 const float pi = 3.14159265;
 
-// Two numbers in (0, 1), each taking 16 values over 4 x 4 pixels, so that the blur averages them out. Every
-// method uses the same.
+// Returns two random numbers in (0, 1). Each takes 16 values over 4 x 4 pixels, so that the blur averages
+// them out. All methods use the same noise.
 vec2 pixel_noise() {
   uvec2 at = uvec2(gl_FragCoord.xy);
   uint across = at.x ^ at.y;
@@ -20,13 +21,13 @@ vec2 pixel_noise() {
   return (vec2(rank, reversed) + 0.5) / 16.0;
 }
 
-// Beyond the screen lies 0: nothing; 1: the nearest pixel on it, at its own place; 2: that pixel's depth at
-// the tap's place, like a clamping sampler.
+// What a tap outside the screen reads. 0: it finds no surface. 1: it moves to the nearest pixel on the
+// screen. 2: it stays in place and uses the depth of that pixel, like a clamping sampler.
 #ifndef NOOK_BORDER
 #define NOOK_BORDER 0
 #endif
 
-// Returns the depth that a tap meets. at: its pixel; with 1 it moves onto the screen.
+// Returns the depth that a tap reads at the pixel `at`. If NOOK_BORDER is 1, moves `at` onto the screen.
 float tap_depth(inout ivec2 at) {
 #if NOOK_BORDER == 0
   return depth_at(at);

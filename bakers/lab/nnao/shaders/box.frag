@@ -1,6 +1,6 @@
 #version 330 core
-// The mean of 4 x 4 pixels, over which the noise repeats. It ignores what the pixels show (J. Chapman's
-// tutorial of SSAO, 2013).
+// Computes the mean of 4 x 4 pixels, which is the period of the noise. It ignores depth and normals (J.
+// Chapman's tutorial of SSAO, 2013).
 uniform sampler2D ao_image;
 uniform ivec2 size_px;
 

@@ -1,5 +1,5 @@
 #version 430 core
-// The edge-aware denoiser as XeGTAO runs it: two adjacent pixels per thread, from gathers.
+// The edge-aware denoiser as XeGTAO runs it: each thread computes two adjacent pixels from texture gathers.
 #include "bakers/lab/nnao/shaders/denoise.glsl"
 
 layout(local_size_x = 8, local_size_y = 8) in;
@@ -11,7 +11,7 @@ uniform vec2 texel;  // 1 / size
 void main() {
   ivec2 pixel = ivec2(gl_GlobalInvocationID.xy) * ivec2(2, 1);
   vec2 corner = vec2(pixel) * texel;
-  // A gather's x and y are above its w and z: left and right.
+  // In a gather, x and y are the upper left and right texels, and w and z the lower left and right texels.
   vec4 e0 = textureGather(edge_image, corner), e1 = textureGather(edge_image, corner + vec2(2.0, 0.0) * texel);
   vec4 e2 = textureGather(edge_image, corner + vec2(1.0, 2.0) * texel);
   vec4 a0 = textureGather(ao_image, corner), a1 = textureGather(ao_image, corner + vec2(2.0, 0.0) * texel);

@@ -1,5 +1,5 @@
 #version 330 core
-// The edge-aware denoiser, one pixel per thread.
+// The edge-aware denoiser, as a fragment shader that computes one pixel per thread.
 #include "bakers/lab/nnao/shaders/denoise.glsl"
 
 uniform sampler2D ao_image;

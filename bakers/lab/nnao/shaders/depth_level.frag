@@ -1,5 +1,5 @@
 #version 330 core
-// Makes one level of XeGTAO's depth from the next finer one, or the finest from the host's depth.
+// Makes one of XeGTAO's depth levels from the next finer level, or the finest level from the host's depth.
 #include "bakers/lab/nnao/shaders/edges.glsl"
 #include "bakers/lab/nnao/shaders/depth_levels.glsl"
 

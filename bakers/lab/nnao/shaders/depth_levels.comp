@@ -1,6 +1,6 @@
 #version 430 core
-// Makes all levels of XeGTAO's depth like the original: four pixels per thread, coarser levels by fewer
-// threads from shared memory.
+// Makes all of XeGTAO's depth levels in the same way as the original. Each thread reads four pixels. Coarser
+// levels are made from shared memory by fewer threads.
 #include "bakers/lab/nnao/shaders/edges.glsl"
 #include "bakers/lab/nnao/shaders/depth_levels.glsl"
 
@@ -15,15 +15,15 @@ uniform vec2 texel;  // 1 / size
 
 shared float depths[64];
 
-// Makes the next level from a level whose texels lie `apart` threads from each other; 0 if this thread makes
-// none.
+// Makes a texel of the next level. The texels of the current level are `apart` threads from each other.
+// Returns 0 in threads that make no texel.
 float next_level(uint apart) {
   barrier();
   uint at = gl_LocalInvocationIndex;
   float depth = 0.0;
   if (((gl_LocalInvocationID.x | gl_LocalInvocationID.y) & (2u * apart - 1u)) == 0u) {
     depth = coarser_depth(vec4(depths[at], depths[at + apart], depths[at + 8u * apart], depths[at + 9u * apart]));
-    // No other thread reads this value before the next barrier.
+    // This write is safe, because no other thread reads the value before the next barrier.
     depths[at] = depth;
   }
   return depth;

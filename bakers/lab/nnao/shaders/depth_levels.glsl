@@ -1,5 +1,5 @@
-// The coarser levels of XeGTAO's depth: a mean of four texels. Texels far in front of the farthest one weigh
-// less.
+// Computes a texel of XeGTAO's coarser depth levels as a weighted mean of four texels. Texels far in front of
+// the farthest texel get less weight.
 uniform float level_radius_m;  // three quarters of the tuned radius
 uniform float falloff;         // share of the radius over which weights fall
 

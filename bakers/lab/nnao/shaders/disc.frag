@@ -1,11 +1,11 @@
 #version 330 core
-// A form of N8AO's denoiser, from its README: eight taps on a disc, turned for each pixel and pass. We added
-// that a tap counts less the farther it is off the pixel's plane.
+// A version of N8AO's denoiser, written from its README: eight taps on a disc, which is rotated for each
+// pixel and pass. We added one thing: the weight of a tap decreases with its distance from the pixel's plane.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
 uniform sampler2D ao_image;
 uniform float disc_px;
-uniform float turn;  // turn of this pass, radians
+uniform float turn;  // rotation of the disc in this pass, radians
 
 out float result;
 

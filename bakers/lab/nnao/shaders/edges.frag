@@ -1,5 +1,5 @@
 #version 330 core
-// Edges for the edge-aware denoiser, for a baseline that does not write them.
+// Writes the edges for the edge-aware denoiser, for baselines that do not write them.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 #include "bakers/lab/nnao/shaders/edges.glsl"
 

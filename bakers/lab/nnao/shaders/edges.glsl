@@ -1,11 +1,12 @@
-// Finds which neighbours of a pixel lie on its surface, like XeGTAO's denoiser (F. Strugar, S. Mccalla, Intel
-// XeGTAO, 2021): left, right, below and above in two bits each, 0 across an edge.
+// Finds which neighbours of a pixel lie on the pixel's surface, in the same way as XeGTAO's denoiser (F.
+// Strugar, S. Mccalla, Intel XeGTAO, 2021). The left, right, lower and upper neighbour have two bits each.
+// The value 0 means that an edge lies between.
 
-// Depth without a surface: far away, but with finite edges and weights.
+// The depth of pixels without a surface. It is far away, but small enough that edges and weights stay finite.
 const float far_depth = 1.0e6;  // metres
 
-// A neighbour is across an edge if its depth differs by 1.1 % of the pixel's depth. Both its own depth and
-// the depth along the slope between the opposite neighbours must differ.
+// There is an edge to a neighbour if the neighbour's depth differs by 1.1 % of the pixel's depth or more. The
+// same must hold after the slope between the opposite neighbours is subtracted.
 vec4 edge_weights(float centre, vec4 neighbours) {
   vec4 steps_m = neighbours - centre;
   vec2 slope = 0.5 * (steps_m.yw - steps_m.xz);

@@ -1,8 +1,8 @@
 #version 330 core
-// A form of Filament's SAO (Google, Filament), after M. McGuire, M. Mara, D. Luebke, Scalable ambient
-// obscurance, 2012. Taps lie on a spiral, and each occludes by its elevation over its distance. Filament's
-// additions are in radii here: a peak that keeps close taps from dominating, a root, and distances that grow
-// with the square.
+// A version of Filament's SAO (Google, Filament), after M. McGuire, M. Mara, D. Luebke, Scalable ambient
+// obscurance, 2012. Taps lie on a spiral. The occlusion of a tap is its elevation divided by its distance.
+// Filament adds three things, with lengths in radii here: a peak term that keeps close taps from dominating,
+// a square root, and tap distances that grow quadratically.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 
 uniform float bias;  // in radii

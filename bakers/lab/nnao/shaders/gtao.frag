@@ -1,8 +1,8 @@
 #version 330 core
 // GTAO (J. Jimenez, X. Wu, A. Pesce, A. Jarabo, Practical realtime strategies for accurate indirect
-// occlusion, 2016) integrates two horizons per slice in closed form. Occluders fade towards the radius. The
-// sum is divided by the sum of an open hemisphere over the same slices, so that few slices leave an open
-// plane at 1.
+// occlusion, 2016) integrates two horizons per slice in closed form. Occluders fade out towards the radius.
+// The sum is divided by the sum for an open hemisphere with the same slices. An open plane therefore has AO 1
+// even with few slices.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/measure/nnao/shaders/slice.glsl"
 
@@ -11,7 +11,7 @@ uniform float falloff;  // where fading begins, in radii
 // Returns the cosine of the horizon on one side (1 or -1).
 float horizon(Slice slice, float side, vec3 position, vec3 viewer, vec2 radius, vec2 noise) {
   float lowest = -side * sin(slice.tilt), highest = lowest;
-  // The weight falls by the first number per metre, and starts at the second.
+  // The weight of a tap is `fade.y` minus `fade.x` times its distance in metres.
   vec2 fade = vec2(1.0 / radius.x, 1.0) / (1.0 - falloff);
   for (int k = 0; k < steps; ++k) {
     ivec2 at = stepped(side * slice.direction, step_px(k, noise, radius.y));

@@ -1,14 +1,15 @@
 #version 330 core
 // HBAO (L. Bavoil, M. Sainz, R. Dimitrov, Image-space horizon-based ambient occlusion, SIGGRAPH 2008 talks).
-// Per direction, it takes the sine of the horizon relative to the tangent plane's. Each rise is weighted by 1
-// - (distance / radius)^2.
+// For each direction, the occlusion is the sine of the horizon minus the sine of the tangent plane. Each
+// increase of the sine is weighted by 1 - (distance / radius)^2.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 
 uniform vec2 bias_turn;  // cosine and sine of the bias of the tangent angle
 
-// Returns the sine of the tangent plane's rise below v, with bias. Rises are measured from the plane across
-// the direction to the viewer. If they were measured from the screen's plane, surfaces at the border of a
-// wide view would face away. along and facing: v and the normal towards the viewer.
+// Returns the sine of the tangent plane's elevation below `v`, with bias. Elevations are measured from the
+// plane perpendicular to the direction to the viewer. If they were measured from the screen plane, surfaces
+// at the border of a wide view would face away. `along` and `facing` are the components of `v` and of the
+// normal towards the viewer.
 float tangent_sine(vec3 v, float along, vec3 normal, vec3 viewer, float facing) {
   vec3 across = v - along * viewer;
   vec2 slope = vec2(facing * length(across), -dot(normal, across));  // how far the plane runs, and how far it
@@ -16,7 +17,7 @@ float tangent_sine(vec3 v, float along, vec3 normal, vec3 viewer, float facing) 
   slope *= inversesqrt(max(dot(slope, slope), 1.0e-30));
   float rise = slope.y * bias_turn.x + slope.x * bias_turn.y;
   float run = slope.x * bias_turn.x - slope.y * bias_turn.y;
-  // The biased angle ends at a right angle.
+  // The biased angle is limited to a right angle.
   return run < 0.0 && slope.y > 0.0 ? 1.0 : rise;
 }
 
@@ -35,7 +36,7 @@ float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noi
       if (depth == no_surface) continue;
       vec3 v = position_at(at, depth) - position;
       float squared = dot(v, v), along = dot(v, viewer), sine = along * inversesqrt(squared);
-      // Uses the texel's own direction, because a plane must not rise over itself.
+      // Uses the exact direction to the texel, so that a plane does not occlude itself.
       float lowest = max(highest, tangent_sine(v, along, normal, viewer, facing));
       if (!(squared < squared_radius) || sine <= lowest) continue;
       closed += (1.0 - squared * fade) * (sine - lowest);

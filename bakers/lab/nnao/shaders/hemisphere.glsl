@@ -1,5 +1,5 @@
-// Points of the hemisphere around the normal, spread as in J. Chapman's tutorial of SSAO (2013). Their
-// distances grow with the square of their number, and neighbouring pixels turn them.
+// Points in the hemisphere around the normal, spread as in J. Chapman's tutorial of SSAO (2013). Their
+// distances grow with the square of their index. Neighbouring pixels rotate the points by different angles.
 #include "bakers/lab/nnao/shaders/ball.glsl"
 
 vec3 hemisphere_point(int i, int count, vec2 noise, vec3 normal) {

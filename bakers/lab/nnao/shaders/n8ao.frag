@@ -1,14 +1,15 @@
 #version 330 core
-// A form of N8AO (N8python, N8AO 2.0, 2026, three.js) from its README: points of a hemisphere, whose
-// occluders fade with a separate distance. It leaves out the neural denoiser, which is off by default. The
-// README states no function for the fade, and no margin.
+// A version of N8AO (N8python, N8AO 2.0, 2026, three.js), written from its README. It samples points in a
+// hemisphere, and occluders fade out over a separate distance. The neural denoiser, which is off by default,
+// is left out. The README does not state the fade function and the margin, so both are ours.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/hemisphere.glsl"
 
 uniform float falloff;  // in radii
 
 float baseline_ao(ivec2 pixel, vec3 position, vec3 normal, vec2 radius, vec2 noise) {
-  // A texel has the depth of its centre. A slanted plane may be nearer than the point by this much.
+  // A texel stores only the depth at its centre. On a slanted plane, the stored depth may be nearer than the
+  // point by this much.
   float facing = dot(normal, normalize(-position));
   float slope = sqrt(max(1.0 - facing * facing, 0.0)) / max(facing, 0.02);
   float margin = (0.25 + 0.75 * slope) / pixels_per_metre(-position.z);

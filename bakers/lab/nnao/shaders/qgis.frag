@@ -1,8 +1,9 @@
 #version 330 core
-// A form of the pass of QGIS' 3D view, from its description (QGIS pull requests 49144 and 49702, 2022). It
-// takes points near the pixel. The pixel darkens if the share of closed points exceeds a threshold. The
-// description names J. Chapman's tutorial of SSAO (2013) but no shape. The default share is a half, which
-// lies behind a plane, so the points must fill a ball, without normals.
+// A version of the AO pass of QGIS' 3D view, written from its description (QGIS pull requests 49144 and
+// 49702, 2022). It tests points near the pixel, and darkens the pixel if the share of occluded points exceeds
+// a threshold. The description refers to J. Chapman's tutorial of SSAO (2013), but does not say which shape
+// the points fill. The default threshold is a half. Half of a ball lies behind a plane, so we assume that the
+// points fill a ball and that normals are not used.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/ball.glsl"
 

@@ -1,7 +1,7 @@
 #version 330 core
 // SSAO (M. Mittring, Finding next gen: CryEngine 2, SIGGRAPH 2007 courses) tests points in a ball around the
-// pixel against the depth buffer, without normals. Half of the ball lies behind a plane, which must count as
-// open.
+// pixel against the depth buffer, without normals. On a plane, half of the ball lies behind the surface. A
+// pixel with half of its points occluded therefore counts as open.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/ball.glsl"
 

@@ -1,8 +1,8 @@
 #version 330 core
-// A form of the pass of VTK 9, from its description (Kitware, Screen-space ambient occlusion in VTK 9.0,
-// 2020, and vtkSSAOPass.h). A point of a hemisphere is closed if the depth buffer is in front of it by more
-// than a bias. J. Chapman's tutorial of SSAO (2013) gives the points, and the smaller weight of surfaces at
-// another depth than the pixel's.
+// A version of the AO pass of VTK 9, written from its description (Kitware, Screen-space ambient occlusion in
+// VTK 9.0, 2020, and vtkSSAOPass.h). A point in the hemisphere is occluded if the depth buffer is in front of
+// it by more than a bias. Two things are from J. Chapman's tutorial of SSAO (2013): the points, and the
+// smaller weight of surfaces whose depth differs from the pixel's.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/hemisphere.glsl"
 

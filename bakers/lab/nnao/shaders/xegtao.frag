@@ -1,9 +1,9 @@
 #version 330 core
 #extension GL_ARB_texture_gather : require
-// XeGTAO (F. Strugar, S. Mccalla, Intel XeGTAO, 2021), from its description. It is GTAO (J. Jimenez, X. Wu,
-// A. Pesce, A. Jarabo, Practical realtime strategies for accurate indirect occlusion, 2016) with taps from
-// depths of five levels and a falloff towards the plane. A Hilbert curve drives the R2 sequence, and edges
-// serve its denoiser.
+// XeGTAO (F. Strugar, S. Mccalla, Intel XeGTAO, 2021), written from its description. It is GTAO (J. Jimenez,
+// X. Wu, A. Pesce, A. Jarabo, Practical realtime strategies for accurate indirect occlusion, 2016) with three
+// changes. Taps read one of five depth levels. Taps fade towards the tangent plane. The noise is the R2
+// sequence, indexed by the position along a Hilbert curve. The pass also writes the edges for its denoiser.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 #include "bakers/lab/nnao/shaders/edges.glsl"
 
@@ -14,17 +14,17 @@
 #define NOOK_STEPS 3  // on one side of a slice
 #endif
 #ifndef NOOK_THIN
-#define NOOK_THIN 0  // thin things occlude less
+#define NOOK_THIN 0  // 1: applies `thin`
 #endif
 
-uniform sampler2D depth_levels;   // metres, five levels; clamped, the nearest texel
-uniform sampler2D hilbert_image;  // places on a Hilbert curve over 64 x 64 pixels
+uniform sampler2D depth_levels;   // metres, five levels; sampled clamped and without filtering
+uniform sampler2D hilbert_image;  // positions along a Hilbert curve over 64 x 64 pixels
 uniform vec2 texel;               // 1 / size
 uniform float radius_scale;
 uniform int groups;        // slices
 uniform float falloff;     // share of the radius over which taps fade
 uniform float power;
-uniform float thin;        // how much more of the radius a metre towards the viewer takes
+uniform float thin;        // thin occluders: a tap's depth difference is scaled by 1 + thin
 uniform float output_scale;
 
 layout(location = 0) out float result;
@@ -34,8 +34,8 @@ layout(location = 2) out vec4 bent_normal;  // view space
 #endif
 
 const float pi = 3.14159265;
-const float mip_offset = 3.3;          // octaves of pixels that the finest level covers
-const float too_close_px = 1.3;        // taps are at least this far away
+const float mip_offset = 3.3;          // log2 of the tap distance (pixels) where level 0 ends
+const float too_close_px = 1.3;        // smallest distance of a tap
 const float golden_ratio = 0.61803399;
 
 vec2 pixel_noise(ivec2 pixel) {
@@ -43,8 +43,9 @@ vec2 pixel_noise(ivec2 pixel) {
   return fract(0.5 + place * vec2(0.75487767, 0.56984029));
 }
 
-// S. Lagarde, Inverse trigonometric functions GPU optimization, 2014; takes the root from the bits of the
-// float (M. Drobot, Low level optimizations for GCN, 2014). The error is at most 0.02.
+// Returns an approximate arc cosine (S. Lagarde, Inverse trigonometric functions GPU optimization, 2014). The
+// square root is estimated from the bits of the float (M. Drobot, Low level optimizations for GCN, 2014). The
+// error is at most 0.02.
 float fast_acos(float x) {
   float size = abs(x);
   float root = intBitsToFloat(0x1fbd1df5 + (floatBitsToInt(max(1.0 - size, 0.0)) >> 1));
@@ -52,13 +53,14 @@ float fast_acos(float x) {
   return x < 0.0 ? pi - angle : angle;
 }
 
-// What all taps of a pixel share.
+// The values that all taps of a pixel share.
 struct Centre {
   vec3 position, viewer;
-  vec2 fade;  // the weight falls by the first number per metre, and starts at the second
+  vec2 fade;  // a tap's weight is fade.y - fade.x * distance, in metres
 };
 
-// Returns the cosine of the angle between the viewer's direction and a tap, faded towards the plane's.
+// Returns the cosine of the angle between the directions to the viewer and to a tap. Distant taps fade to the
+// cosine of the tangent plane.
 float tap_cosine(Centre centre, vec2 offset_px, float level, float lowest) {
   vec2 at_px = gl_FragCoord.xy + offset_px;
 #if NOOK_BORDER == 1
@@ -77,20 +79,21 @@ float tap_cosine(Centre centre, vec2 offset_px, float level, float lowest) {
   return mix(lowest, dot(v, centre.viewer) * inverse, weight);
 }
 
-// Returns the cosine-weighted integral from the viewer's direction to an angle, as in slice.glsl.
+// Returns the cosine-weighted integral from the direction to the viewer to an angle, as in slice.glsl.
 float arc(float angle, float tilt, float cos_tilt, float sin_tilt) {
   return 0.25 * (cos_tilt + 2.0 * angle * sin_tilt - cos(2.0 * angle - tilt));
 }
 
-// Returns the cosine-weighted mean of the directions from the viewer's to an angle, along the slice and
-// towards the viewer. It is the integral of cos(a - tilt) |sin a| (sin a, cos a).
+// Returns the cosine-weighted integral of the directions between the viewer and an angle. x is the component
+// along the slice, and y the component towards the viewer. It is the integral of cos(a - tilt) |sin a| (sin
+// a, cos a).
 vec2 arc_mean(float angle, float tilt) {
   float once = sin(angle - tilt) + sin(tilt), thrice = (sin(3.0 * angle - tilt) + sin(tilt)) / 3.0;
   return vec2(0.5 * once - 0.25 * (thrice + sin(angle + tilt) - sin(tilt)),
               0.25 * ((cos(tilt) - cos(3.0 * angle - tilt)) / 3.0 + cos(tilt) - cos(angle + tilt)));
 }
 
-// bent: adds the open directions.
+// Returns the visibility of a slice, and adds its open directions to `bent`.
 float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float facing, float radius_px, inout vec3 bent) {
   float turn = pi * (float(slice) + noise.x) / float(groups);
   vec2 direction = vec2(cos(turn), sin(turn));
@@ -108,9 +111,9 @@ float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float 
     ahead = max(ahead, tap_cosine(centre, offset_px, level, -sin_tilt));
     behind = max(behind, tap_cosine(centre, -offset_px, level, sin_tilt));
   }
-  // Without the twentieth, open planes at a slant are too dark. Directions that are even over the screen are
-  // not even around the viewer's direction, except in the middle of the image. GTAO divides this error away,
-  // but XeGTAO as published does not.
+  // The mix by a twentieth is needed because open planes at a slant would be too dark otherwise. Directions
+  // that are uniform on the screen are uniform around the direction to the viewer only in the middle of the
+  // image. GTAO cancels this error by a division, but XeGTAO as published does not.
   float projected = mix((rise * rise + facing * facing) * inverse, 1.0, 0.05);
 #ifdef NOOK_BENT_NORMALS
   vec2 mean = projected * (arc_mean(fast_acos(ahead), tilt) + arc_mean(-fast_acos(behind), tilt));
@@ -130,13 +133,14 @@ void main() {
 #endif
   if (depth >= far_depth) return;
   vec2 radius = pixel_radius(depth) * radius_scale;
-  // Rounded depths must not occlude their own plane.
+  // Moves the position slightly towards the viewer, so that rounding of depths does not make a plane occlude
+  // itself.
   vec3 position = position_at(pixel, 0.99999 * depth);
   Centre centre = Centre(position, normalize(-position), vec2(1.0 / radius.x, 1.0) / falloff);
   vec3 normal = normal_at(pixel);
   float facing = dot(normal, centre.viewer);
   vec2 noise = pixel_noise(pixel);
-  // Small radii fade out.
+  // The AO fades out for small radii.
   float open = 0.5 * clamp((10.0 - radius.y) / 100.0, 0.0, 1.0);
   vec3 bent = vec3(0.0);
   for (int slice = 0; slice < groups; ++slice)
