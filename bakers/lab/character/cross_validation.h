@@ -1,4 +1,4 @@
-// Cross-validation of the baselines: which poses are left out together, and which vertices vote.
+// Cross-validation of the baselines: which poses are left out together, and which vertices are evaluated.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,22 +11,22 @@
 
 namespace nook::lab {
 
-// Folds receive runs of neighbouring poses. Consecutive frames of a clip are nearly equal, so single poses in
-// folds would choose far too little regularisation.
+// Each fold consists of runs of neighbouring poses. Consecutive frames of a clip are almost equal, so folds
+// of single poses would lead to far too little regularisation.
 struct ValidationFold {
   std::vector<Eigen::Index> fitted, left_out;
 };
 std::vector<ValidationFold> validation_folds(std::size_t poses, std::size_t folds = 4,
                                              std::size_t runs_a_fold = 5);
 
-// At most `count` vertices, evenly spread over the mesh's order.
+// Returns at most `count` vertices, evenly spread over the vertex order of the mesh.
 std::vector<std::size_t> sample_vertices(std::size_t vertex_count, std::size_t count);
 
-// AO of some vertices: poses x vertices.
+// Returns the AO of the given vertices, as a matrix of poses x vertices.
 BaselineMatrix target_columns(const bake::AoTargets& targets, const std::vector<std::size_t>& vertices);
 BaselineMatrix target_columns(const bake::AoTargets& targets, std::size_t first, std::size_t last);
 
-// Sum of squared errors of clamped predictions.
+// Clamps the predictions and returns the sum of their squared errors.
 double clamped_squared_error(const BaselineMatrix& prediction, const BaselineMatrix& target);
 
 // Returns the smallest candidate whose error is within `slack` (relative) of the minimum.
@@ -36,7 +36,7 @@ struct SizedError {
 };
 std::size_t smallest_near_best(const std::vector<SizedError>& candidates, double slack);
 
-// Rounds to half precision and back, as a stored model would.
+// Rounds the values to half precision, as in a stored model.
 void round_to_half(BaselineMatrix& values);
 
 }  // namespace nook::lab

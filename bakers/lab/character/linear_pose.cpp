@@ -28,10 +28,10 @@ constexpr double rank_slack = 0.005;
 
 struct Parametrisation {
   FeatureKind kind = FeatureKind::axis_angle;
-  bool scaled = false;  // each parameter to unit variance
+  bool scaled = false;  // whether each parameter is scaled to unit variance
 };
 
-// The normal equations of one set of poses, diagonalised, so that each ridge and rank costs only products:
+// The diagonalised normal equations of one set of poses. Each ridge and rank then needs only matrix products:
 // coefficients = Q (S + ridge)^-1 Q^T X^T Y.
 struct NormalEquations {
   Eigen::RowVectorXf feature_mean, feature_scale, target_mean;
@@ -52,7 +52,7 @@ NormalEquations diagonalise(const BaselineMatrix& features, bool scaled) {
   if (scaled) {
     const Eigen::RowVectorXf variance =
         (features.rowwise() - n.feature_mean).colwise().squaredNorm() / float(features.rows());
-    // A parameter that never moves stays at 0 with any scale.
+    // A parameter that never changes is 0 with any scale.
     for (Index i = 0; i < variance.size(); ++i)
       n.feature_scale[i] = variance[i] > 1e-10f ? 1 / std::sqrt(variance[i]) : 0.0f;
   }
@@ -71,8 +71,8 @@ void add_targets(NormalEquations& n, const BaselineMatrix& features, const Basel
   n.rotated = n.q.transpose() * (x.transpose() * y / double(x.rows()));
 }
 
-// The directions of the target space that the ridge solution explains most, for reduced-rank regression. They
-// are left singular vectors of A = (S + ridge)^-1/2 Q^T X^T Y, because |X W|^2 + ridge |W|^2 = |A|^2 for the
+// The basis of reduced-rank regression: the directions that the ridge solution explains best. They are the
+// left singular vectors of A = (S + ridge)^-1/2 Q^T X^T Y, because |X W|^2 + ridge |W|^2 = |A|^2 for the
 // solution W.
 struct RankBasis {
   Eigen::VectorXd inverse_root;  // (S + ridge)^-1/2
@@ -96,7 +96,7 @@ struct Choice {
   double error = 0;
 };
 
-// Squared errors over all folds for each ridge.
+// Returns the sum of squared errors over all folds, for each ridge.
 std::vector<double> validate_ridges(const BaselineMatrix& features, const BaselineMatrix& targets,
                                     bool scaled, const std::vector<ValidationFold>& folds) {
   std::vector<std::array<double, ridges.size()>> partial(folds.size());
@@ -181,7 +181,7 @@ class LinearPose final : public PoseRegression {
     for (const Eigen::MatrixXd& part : rotated) outer += part * part.transpose();
     const RankBasis basis = rank_basis(n, choice_.ridge, outer);
     rank = std::min(rank, x.cols());
-    // Latent coordinates are scaled so that halves hold them without overflow or loss.
+    // The latent coordinates are scaled so that half floats store them without overflow or loss of precision.
     const Eigen::MatrixXd u = basis.u.leftCols(rank);
     const Eigen::MatrixXd to_latent =
         n.feature_scale.cast<double>().asDiagonal() * n.q * basis.inverse_root.asDiagonal() * u;
@@ -244,7 +244,7 @@ std::unique_ptr<PoseRegression> fit_linear_pose(const SkinnedMesh& mesh, std::sp
       }
     }
   auto model = std::make_unique<LinearPose>(mesh, best);
-  // Without parameters or poses to compare, only the mean remains.
+  // Without parameters, or with too few poses, the model is only the mean.
   const Index rank =
       first ? 0 : choose_rank(PoseFeatures(mesh, best.parametrisation.kind).of(poses), voting, best, folds);
   model->fit(poses, targets, rank);

@@ -23,21 +23,23 @@ constexpr std::array<Index, 6> cluster_counts{1, 2, 4, 8, 16, 32};
 constexpr std::array<Index, 8> ranks{2, 4, 8, 16, 32, 64, 128, 192};
 constexpr std::array ridges{1e-4, 1e-3, 1e-2, 3e-2,
                             1e-1, 3e-1, 1.0};  // times the mean variance of a basis direction
-// Widths of the blend: its variance over the poses' mean squared distance to a centre.
+// Candidates for the width of the blend: the variance of its Gaussian divided by the mean squared distance of
+// the poses to their nearest centre.
 constexpr std::array widths{0.1, 0.3, 1.0, 3.0};
 constexpr double first_width = 0.3;
 constexpr std::size_t voting_vertices = 256;
 constexpr double size_slack = 0.005;
-constexpr float least_weight = 1e-3f;  // a cluster with a smaller weight ignores the pose
+constexpr float least_weight = 1e-3f;  // a cluster ignores poses with a smaller weight
 
 struct Settings {
   FeatureKind kind = FeatureKind::axis_angle;
-  bool by_moved_share = false;  // metric: scales features by the root of the share of vertices that they move
+  bool by_moved_share = false;  // metric of poses; see PoseSpace
   Index clusters = 1, rank = ranks.back();
   double ridge = ridges.back(), width = first_width;
 };
 
-// Blend weights of poses x clusters: Gaussians of the distance to the centres, normalised.
+// Returns the blend weights as a matrix of poses x clusters. They are normalised Gaussians of the distances
+// to the centres.
 BaselineMatrix blend_weights(const BaselineMatrix& features, const BaselineMatrix& centres, double variance) {
   BaselineMatrix w = squared_distances(features, centres);
   for (Index t = 0; t < w.rows(); ++t) {
@@ -56,12 +58,12 @@ std::vector<Index> seen_by(const BaselineMatrix& weights, Index cluster) {
   return rows;
 }
 
-// One cluster's weighted least squares in its own principal components, before ridge and rank apply. The
-// basis makes the normal equations diagonal.
+// The weighted least squares of one cluster in its own principal components, before a ridge and a rank are
+// applied. The basis makes the normal equations diagonal.
 struct ClusterFit {
   Eigen::RowVectorXf feature_mean, target_mean;
-  BaselineMatrix basis;        // features x most components, strongest first
-  Eigen::VectorXf variance;    // variance of the poses along each
+  BaselineMatrix basis;        // features x maximum components, strongest first
+  Eigen::VectorXf variance;    // variance of the poses along each component
   BaselineMatrix correlation;  // components x targets
 };
 
@@ -98,7 +100,7 @@ BaselineMatrix rows_of(const BaselineMatrix& matrix, const std::vector<Index>& r
 
 using ErrorGrid = Eigen::Array<double, ranks.size(), ridges.size()>;
 
-// Squared errors of one fold for every rank and ridge.
+// Returns the squared errors of one fold for every rank and ridge.
 ErrorGrid validate_fold(const BaselineMatrix& features, const BaselineMatrix& targets,
                         const ValidationFold& fold, Index clusters, double width, std::uint64_t seed) {
   const BaselineMatrix x = rows_of(features, fold.fitted), y = rows_of(targets, fold.fitted);
@@ -143,7 +145,7 @@ std::size_t stored_numbers(const PoseSpace& space, Index clusters, Index rank, s
                                                            std::size_t((rank + 2) * space.dimensions()));
 }
 
-// Tries settings on all folds and remembers their errors.
+// Measures settings on all folds and stores their errors.
 class Search {
  public:
   Search(std::span<const Pose> poses, const AoTargets& targets, std::uint64_t seed)
@@ -152,9 +154,9 @@ class Search {
         vertices_(targets.vertex_count),
         seed_(seed) {}
 
-  // Measures every rank and ridge at once.
+  // Measures the settings with every rank and ridge.
   void measure(const PoseSpace& space, const BaselineMatrix& x, Settings settings) {
-    // With few poses per cluster, its linear model says nothing.
+    // A cluster with few poses does not have a meaningful linear model.
     if (settings.clusters > 1 && settings.clusters * 8 > x.rows()) return;
     std::vector<ErrorGrid> partial(folds_.size());
     tbb::parallel_for(std::size_t(0), folds_.size(), [&](std::size_t f) {
@@ -183,7 +185,7 @@ class Search {
   std::vector<SizedError> errors_;
 };
 
-// Chooses one after the other: the space of poses, the number of clusters, the width of their blend.
+// Chooses the space of poses first, then the number of clusters, then the width of the blend.
 Settings choose_settings(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
                          std::uint64_t seed) {
   Search search(poses, targets, seed);
@@ -199,7 +201,8 @@ Settings choose_settings(const SkinnedMesh& mesh, std::span<const Pose> poses, c
   for (Index clusters : cluster_counts)
     if (clusters != 1 && clusters != 8)
       search.measure(space, x, {first.kind, first.by_moved_share, clusters});
-  // A single cluster has nothing to blend with; several may still win with another width.
+  // The width has no effect with a single cluster. Two clusters may still be better with another width, so at
+  // least two are tried.
   const Index clusters = std::max<Index>(search.best(0).clusters, 2);
   for (double width : widths)
     if (width != first_width)
@@ -284,8 +287,8 @@ class PoseClusters final : public PoseRegression {
     round_to_half(cluster.map);
   }
 
-  // The ridge is relative to the mean variance of the largest number of components in validation, whatever
-  // the rank.
+  // The ridge is relative to the mean variance of the components. The mean is over the largest number of
+  // components in validation, whichever rank is chosen.
   Eigen::VectorXf full_shrinkage(const BaselineMatrix& seen_x, const Eigen::VectorXf& seen_w) const {
     const ClusterFit full = principal_components(seen_x, seen_w, ranks.back());
     return shrinkage(full, settings_.ridge).head(settings_.rank);
@@ -299,7 +302,7 @@ class PoseClusters final : public PoseRegression {
   std::vector<Cluster> clusters_;
 };
 
-// The model for a character without joints that turn.
+// The model of a character without rotating joints.
 class MeanAo final : public PoseRegression {
  public:
   explicit MeanAo(const AoTargets& targets)

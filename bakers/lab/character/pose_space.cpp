@@ -19,7 +19,7 @@ namespace {
 using namespace bake;
 using Eigen::Index;
 
-// Returns the rotation in a rigid or uniformly scaled matrix.
+// Returns the rotation of a matrix that is rigid or has uniform scale.
 Eigen::Matrix3f rotation_part(const Mat3x4& m) {
   Eigen::Matrix3f r;
   for (int i = 0; i < 3; ++i)
@@ -30,8 +30,8 @@ Eigen::Matrix3f rotation_part(const Mat3x4& m) {
 
 constexpr int starts = 3, most_iterations = 40;
 
-// Arthur & Vassilvitskii 2007: the probability to draw the next centre is proportional to the squared
-// distance to the existing ones.
+// Draws the initial centres of k-means++ (Arthur & Vassilvitskii 2007). The probability of each next centre
+// is proportional to its squared distance to the nearest existing centre.
 BaselineMatrix draw_centres(const BaselineMatrix& features, Index clusters, std::mt19937_64& bits) {
   const auto uniform = [&] { return double(bits() >> 11) * 0x1p-53; };
   BaselineMatrix centres(clusters, features.cols());
@@ -57,7 +57,7 @@ BaselineMatrix draw_centres(const BaselineMatrix& features, Index clusters, std:
 PoseFeatures::PoseFeatures(const SkinnedMesh& mesh, FeatureKind kind) : kind_(kind) {
   for (std::uint32_t bone : posable_joints(mesh)) {
     const std::int32_t parent = mesh.bones[bone].parent;
-    // With several roots, the others turn relative to the first.
+    // If there are several roots, the rotation of the other roots is relative to the first.
     if (parent >= 0 || bone != 0) joints_.push_back({bone, parent >= 0 ? parent : 0});
   }
 }
@@ -96,7 +96,8 @@ Eigen::RowVectorXf PoseFeatures::moved_share(const SkinnedMesh& mesh) const {
   Eigen::RowVectorXf scale(count());
   Eigen::Index next = 0;
   for (const JointPair& joint : joints_) {
-    // Turning a joint that moves most of the body is the same as turning the rest the other way.
+    // Rotating a joint that moves most of the body has the same effect as rotating the rest of the body in
+    // the opposite direction.
     const double share = moved[joint.bone] / double(mesh.vertex_count());
     const float root = std::sqrt(float(std::max(std::min(share, 1 - share), 1e-4)));
     for (Eigen::Index i = 0; i < per_joint(); ++i) scale[next++] = root;
@@ -154,7 +155,7 @@ PoseGroups k_means(const BaselineMatrix& features, Index clusters, std::uint64_t
         members[nearest] += 1;
       }
       if (!moved) break;
-      // A cluster that lost all its poses keeps its centre.
+      // A cluster without poses keeps its centre.
       for (Index k = 0; k < clusters; ++k)
         if (members[k] > 0) centres.row(k) = sum.row(k) / members[k];
     }

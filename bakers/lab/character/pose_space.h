@@ -1,5 +1,5 @@
-// Poses as points of a space with meaningful distances, and clusters of them. A pose's features are the
-// rotations of the joints relative to their parents and to rest.
+// Maps poses to points in a space with meaningful distances, and clusters them. The features of a pose are
+// the rotations of the joints relative to their parents and to the rest pose.
 #pragma once
 
 #include <Eigen/Dense>
@@ -14,7 +14,7 @@ namespace nook::lab {
 
 enum class FeatureKind : std::uint8_t {
   axis_angle,  // 3 per joint: the logarithm of the rotation, radians
-  matrix,      // 9 per joint: its entries minus the identity's
+  matrix,      // 9 per joint: the entries of the rotation minus the identity
 };
 
 // Rows are poses. Row-major, so that a pose is contiguous.
@@ -28,8 +28,8 @@ class PoseFeatures {
   Eigen::RowVectorXf of(const bake::Pose& pose) const;
   BaselineMatrix of(std::span<const bake::Pose> poses) const;
 
-  // Returns for each feature the root of the share of vertices that its joint moves. In this metric, a turned
-  // finger is a smaller change of pose than a turned hip.
+  // Returns for each feature the square root of the share of vertices that the feature's joint moves. As a
+  // scale, it makes a rotated finger a smaller change of pose than a rotated hip.
   Eigen::RowVectorXf moved_share(const bake::SkinnedMesh& mesh) const;
 
  private:
@@ -40,14 +40,13 @@ class PoseFeatures {
   Eigen::Index per_joint() const { return kind_ == FeatureKind::axis_angle ? 3 : 9; }
 
   FeatureKind kind_;
-  std::vector<JointPair> joints_;  // joints that move some but not all vertices; others change no AO
+  std::vector<JointPair> joints_;  // only joints that move some but not all vertices; others do not affect AO
 };
 
-// Scaled features in their own principal components.
+// The space of scaled features, expressed in principal components.
 class PoseSpace {
  public:
-  // by_moved_share scales each feature by the root of the share of vertices that its joint moves. Keeps at
-  // most `dimensions` components.
+  // If `by_moved_share` is true, scales each feature by moved_share(). Keeps at most `dimensions` components.
   PoseSpace(const bake::SkinnedMesh& mesh, FeatureKind kind, bool by_moved_share,
             std::span<const bake::Pose> poses, Eigen::Index dimensions);
 
@@ -68,13 +67,14 @@ class PoseSpace {
 
 struct PoseGroups {
   BaselineMatrix centre;         // clusters x features
-  double mean_squared_distance;  // between poses and their nearest centre
+  double mean_squared_distance;  // from each pose to its nearest centre
 };
 
-// Lloyd's iterations from a k-means++ start, the best of a few starts. The same seed gives the same groups.
+// Runs Lloyd's iterations from several k-means++ starts and returns the best result. The groups depend only
+// on the arguments.
 PoseGroups k_means(const BaselineMatrix& features, Eigen::Index clusters, std::uint64_t seed);
 
-// Squared distances: poses x clusters.
+// Returns squared distances, as a matrix of poses x clusters.
 BaselineMatrix squared_distances(const BaselineMatrix& features, const BaselineMatrix& centres);
 
 }  // namespace nook::lab

@@ -15,10 +15,10 @@
 namespace nook::lab::crowd {
 namespace {
 
-constexpr std::uint32_t ao_rays = 128;       // for the errors
-constexpr std::uint32_t light_rays = 64;     // per estimate; the mean of two is the errors' reference
-constexpr std::uint32_t picture_rays = 256;  // for the sheets, where noise would be visible
-// Points per side of the floor: about 2 cm apart under AO, and wider under light.
+constexpr std::uint32_t ao_rays = 128;       // per vertex, for the errors
+constexpr std::uint32_t light_rays = 64;     // per estimate; the reference is the mean of two estimates
+constexpr std::uint32_t picture_rays = 256;  // for the sheets, where noise is visible
+// Points per side of the floor. For AO, they are about 2 cm apart; for light, the distance is larger.
 constexpr std::uint32_t ao_floor_side = 320, light_floor_side = 100;
 
 VertexValues ao_of(const EvaluatedCrowd& evaluated, std::span<const std::uint32_t> characters) {
@@ -46,7 +46,7 @@ std::string screen_space_label(const ScreenSpaceSettings& settings) {
          (settings.half_resolution ? ", half resolution" : "");
 }
 
-// Draws panels of one group and keeps them for a sheet.
+// Draws panels of one group and collects them for a sheet.
 class Painter {
  public:
   explicit Painter(const Subject& subject) : subject_(subject), group_(choose_group(subject.places)) {}
@@ -69,7 +69,7 @@ class Painter {
   std::vector<platform::Image> panels_;
 };
 
-// Returns the irradiance of unoccluded vertices from the lobes, three floats for each unit normal.
+// Returns the irradiance from the lobes without occlusion, three floats for each unit normal.
 std::vector<float> open_irradiance(const Light& light, const std::vector<float>& normals) {
   std::vector<float> irradiance(normals.size());
   nook::check(nook_sg_irradiance(light.lobes.data(), std::uint32_t(light.lobes.size()),
@@ -79,13 +79,13 @@ std::vector<float> open_irradiance(const Light& light, const std::vector<float>&
   return irradiance;
 }
 
-// Returns the RGB irradiance of any surface in constant light of the lobes' mean radiance.
+// Returns the RGB irradiance of a surface in constant light with the mean radiance of the lobes.
 std::vector<float> constant_irradiance(const Light& light) {
   std::vector<float> irradiance(3, 0.0f);
   for (const nook_lobe& lobe : light.lobes) {
     float integral[3];
     nook::check(nook_sg_integral(&lobe, integral));
-    for (int c = 0; c < 3; ++c) irradiance[c] += integral[c] / 4;  // times pi, over 4 pi
+    for (int c = 0; c < 3; ++c) irradiance[c] += integral[c] / 4;  // times pi, divided by 4 pi
   }
   return irradiance;
 }
@@ -132,7 +132,7 @@ AoErrors measure_ao(const Subject& subject) {
   const VertexValues again = traced_ao(crowd, sample, {ao_rays, subject.seed + 1});
   AoErrors result;
   result.rays = ao_rays;
-  // The mean square difference of two independent estimates is twice the variance of one.
+  // The mean squared difference of two independent estimates is twice the variance of one estimate.
   result.noise_floor_mse = compare(crowd, sample, again, reference).mse / 2;
   result.characters = sample.size();
   result.have_neighbours = have_neighbours;
@@ -146,7 +146,7 @@ AoErrors measure_ao(const Subject& subject) {
   }
   const VertexValues static_ao(sample.size(), subject.evaluated.static_ao());
   result.forms.push_back({"static", compare(crowd, sample, static_ao, reference)});
-  // Both of these forms have the ground's term.
+  // Both forms include the ground, so they differ only in the neighbours.
   result.links_cut_mse_area = 1 - result.forms[3].errors.mse_area / result.forms[1].errors.mse_area;
   return result;
 }
@@ -216,8 +216,8 @@ LightErrors measure_light(const Subject& subject, const Light& light) {
   result.forms = {{"ao_only", errors(forms.ao_only)},
                   {"ao_x_probe", errors(forms.ao_x_probe)},
                   {"per_lobe", errors(forms.per_lobe)}};
-  // The mean square difference of two independent estimates is twice the variance of one, and their mean has
-  // half the variance of one.
+  // The mean squared difference of two independent estimates is twice the variance of one estimate. Their
+  // mean has half the variance of one estimate.
   result.noise_floor_mse = compare(subject.crowd, sample, other, one, 3, unit).mse / 4;
   return result;
 }

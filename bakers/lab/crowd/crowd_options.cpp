@@ -38,7 +38,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   std::vector<std::string> debug;
   std::uint32_t bodies = 1;
   o.cache = CROWD_CACHE;
-  // The last of several values wins, so that a script's caller can override its values.
+  // If an option is given several times, the last value is used. Callers of a script can thus override the
+  // script's values.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("hero", o.hero_glb, "rigged character, a .glb or .gltf file; default: a built-in character")
       ->check(CLI::ExistingFile);
@@ -67,7 +68,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
                  "probe (.nook) or environment map (.hdr, .exr). The first one lights the frames, and each "
                  "one is compared with path tracing. You can repeat the option. Default: a built-in sky")
       ->check(CLI::ExistingFile)
-      ->allow_extra_args(false)  // what follows are files
+      ->allow_extra_args(false)  // so that the words after it are files
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("!--no-light", o.probe_light,
                "light the frames with constant ambient light times AO, and a key light");

@@ -1,4 +1,4 @@
-// The command line of nook-lab-crowd.
+// The command-line options of nook-lab-crowd.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,8 @@
 namespace crowd::lab {
 
 struct Options {
-  // Without a .glb, uses the built-in character. Without a .nook, bakes its model here.
+  // If the .glb is not given, the built-in character is used. If the .nook is not given, the program bakes
+  // the model itself.
   std::filesystem::path hero_glb, hero_nook;
   std::string context = "egl";
   CrowdSize crowd;
@@ -21,16 +22,15 @@ struct Options {
   std::filesystem::path out = "out/crowd", report;
   std::filesystem::path cache;
   std::filesystem::path record;
-  std::vector<std::filesystem::path> lights;  // probes (.nook) or maps of the environment (.hdr, .exr)
-  bool probe_light = true;                    // lights the frames with the first light, or with the built-in
-                                              // sky
+  std::vector<std::filesystem::path> lights;  // probes (.nook) or environment maps (.hdr, .exr)
+  bool probe_light = true;                    // lights the frames with the first light or the built-in sky
   bool screen_space = true, sheets = true, quiet = false;
   bool measure_world = false;
-  float lod_error = 0;  // AO, rms at 10 m from the camera; 0 keeps full detail
+  float lod_error = 0;  // allowed rms error of AO at 10 m from the camera; 0 keeps full detail
   DebugView debug;      // drawn over the frames
 };
 
-// Fills options. Returns false with exit_code set if the program should end at once.
+// Fills `options`. Returns false if the program should exit at once, with `exit_code`.
 bool parse_options(int argc, char** argv, Options& options, int& exit_code);
 
 }  // namespace crowd::lab

@@ -5,7 +5,7 @@
 namespace crowd::lab {
 namespace {
 
-// AO of 256 rays has a standard deviation of at most 1/32, which is below an eighth of the colours' range.
+// With 256 rays, the standard deviation of AO is at most 1/32, which is an eighth of the colour range.
 constexpr std::uint32_t rays = 256;
 constexpr float ground_half_size_m = 200;
 
@@ -75,7 +75,7 @@ void DebugOverlay::draw_errors(Renderer& renderer, const PictureOfCrowd& picture
 void DebugOverlay::draw(Renderer& renderer, const PictureOfCrowd& picture, const DebugView& view) {
   if (view.error) draw_errors(renderer, picture, view.bodies);
   if (!view.spheres && !view.key_points && !view.links) return;
-  // The GPU does not give out the shadows of key points.
+  // The shadows of key points cannot be read from the GPU, so the CPU computes them.
   if (view.key_points) picture.scene.scene().update();
   shapes_.draw(debug_shapes(picture.scene, view, picture.camera.eye_ws), picture.camera);
 }

@@ -1,11 +1,11 @@
-// Draws the debug view of a scene over its picture, and traces rays for the view of errors.
+// Draws the debug view of a scene over its picture. For the error view, it traces rays.
 #pragma once
 
 #include "bakers/lab/crowd/debug_shapes.h"
 
 namespace crowd::lab {
 
-// The content of a picture: the instances of a scene after an update, and the camera.
+// What a picture shows: the instances of a scene after an update, and the camera.
 struct PictureOfCrowd {
   CrowdScene& scene;
   const Hero& hero;
@@ -22,7 +22,7 @@ class DebugOverlay {
   DebugOverlay(const DebugOverlay&) = delete;
   DebugOverlay& operator=(const DebugOverlay&) = delete;
 
-  // Draws over the picture in the framebuffer that is bound.
+  // Draws over the picture in the bound framebuffer.
   void draw(Renderer& renderer, const PictureOfCrowd& picture, const DebugView& view);
 
  private:
@@ -33,7 +33,7 @@ class DebugOverlay {
   GLuint error_buffer_ = 0;
 };
 
-// Gives the instances the colours of their levels of detail.
+// Colours each instance by its level of detail.
 void colour_by_level(const CrowdScene& scene, std::span<DrawnInstance> drawn);
 
 }  // namespace crowd::lab

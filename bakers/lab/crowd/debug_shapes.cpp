@@ -25,7 +25,8 @@ glm::vec3 linear(const glm::vec3& srgb) {
   return glm::pow(srgb, glm::vec3(2.2f));
 }
 
-// Hues a golden angle apart, so that neighbouring bones differ.
+// Returns the colour of a bone. The hues of consecutive bones differ by the golden angle, so that
+// neighbouring bones look different.
 glm::vec3 bone_colour(std::uint32_t bone) {
   const float hue = 6 * std::fmod(0.618034f * float(bone), 1.0f);
   const glm::vec3 full = glm::clamp(glm::abs(glm::mod(glm::vec3(hue, hue + 4, hue + 2), 6.0f) - 3.0f) - 1.0f,
@@ -38,7 +39,8 @@ void add_spheres(const CrowdScene& scene, std::uint32_t character, std::vector<B
     out.push_back({vec(s.centre_ws), s.radius, bone_colour(s.bone)});
 }
 
-// Leaves out points that face away, because they lie on the far side of the body.
+// Adds the key points of a character. Points that face away from the eye are left out, because they are on
+// the far side of the body.
 void add_key_points(const CrowdScene& scene, std::uint32_t character, const glm::vec3& eye_ws,
                     DebugShapes& out) {
   for (const nook_scene_key_point& p : nook::posed_key_points(scene.scene(), scene.instances()[character])) {
@@ -56,13 +58,14 @@ void add_links(const CrowdScene& scene, std::vector<Line>& out) {
                      link_colour});
 }
 
-// The body would hide the spheres inside it, so their depth moves towards the eye by this much.
+// The depth of spheres is moved towards the eye by this distance, because the body would hide the spheres
+// otherwise.
 constexpr float sphere_lift_m = 0.3f;
-// The fit leaves key points beside the surface.
+// The depth of key points is moved too, because fitted key points do not lie exactly on the surface.
 constexpr float point_lift_m = 0.05f;
 
-// A square that covers the sphere as seen by the eye: the silhouette's cone, cut by the plane through the
-// centre.
+// Draws a square that covers the sphere as seen from the eye. Its size is the section of the silhouette cone
+// with the plane through the sphere's centre.
 const char* const ball_vertex = R"(#version 330 core
 layout(location = 0) in vec4 centre_radius;
 layout(location = 1) in vec3 ball_colour;
@@ -86,7 +89,7 @@ void main() {
 }
 )";
 
-// Draws the sphere's surface where the ray from the eye meets it. Its edge fades over a pixel.
+// Draws the point where the ray from the eye hits the sphere. The sphere's edge fades out over one pixel.
 const char* const ball_fragment = R"(#version 330 core
 flat in vec4 ball;
 flat in vec3 surface_albedo;
@@ -113,7 +116,7 @@ void main() {
 }
 )";
 
-// A quad of constant width on the screen, cut at the near plane.
+// Draws a line as a quad with constant width on the screen, clipped at the near plane.
 const char* const line_vertex = R"(#version 330 core
 layout(location = 0) in vec4 from_width;
 layout(location = 1) in vec4 to_width;
@@ -156,8 +159,8 @@ out vec4 colour;
 void main() { colour = vec4(surface_albedo, opacity * clamp(half_width_px - abs(across), 0.0, 1.0)); }
 )";
 
-// Dark blue and dark red are the ends of the map vik, which colour-blind readers can tell apart. The shading
-// keeps the form of the body visible.
+// Dark blue and dark red are the ends of the colour map vik, which colour-blind people can distinguish. The
+// shading keeps the shape of the body visible.
 const char* const error_fragment = R"(#version 330 core
 in vec3 surface_position_ws;
 in vec3 surface_normal_ws;
@@ -212,8 +215,8 @@ DebugShapes debug_shapes(const CrowdScene& scene, const DebugView& view, const g
   return shapes;
 }
 
-// Sky blue, bluish green, yellow, orange and vermilion of Okabe and Ito, which colour-blind readers can tell
-// apart.
+// The colours are sky blue, bluish green, yellow, orange and vermilion of Okabe and Ito, which colour-blind
+// people can distinguish.
 glm::vec3 level_colour(std::uint32_t level) {
   static const glm::vec3 colours[] = {{0.34f, 0.71f, 0.91f},
                                       {0.00f, 0.62f, 0.45f},
@@ -223,7 +226,7 @@ glm::vec3 level_colour(std::uint32_t level) {
   return linear(colours[std::min<std::size_t>(level, std::size(colours) - 1)]);
 }
 
-// The ends and the middle of the map cividis.
+// Interpolates between the two ends and the middle of the colour map cividis.
 glm::vec3 shadow_colour(float shadow) {
   const glm::vec3 dark(0.00f, 0.14f, 0.31f), grey(0.49f, 0.48f, 0.47f), yellow(0.99f, 0.91f, 0.22f);
   const float t = std::clamp(shadow / full_shadow, 0.0f, 1.0f);
@@ -274,8 +277,8 @@ void DebugRenderer::set_view(const platform::Program& program, const View& view,
   gl_.Uniform1f(program.uniform("opacity"), opacity);
 }
 
-// Draws depth first and then the colours of the nearest spheres, so that translucent spheres cover each
-// other.
+// Draws only the depth first, and then the colours of the nearest spheres. Translucent spheres thus hide the
+// spheres behind them.
 void DebugRenderer::draw_balls(const std::vector<Ball>& balls, const View& view, float lift_m,
                                float opacity) {
   if (balls.empty()) return;

@@ -1,5 +1,5 @@
-// Debug views over the crowd that show how its occlusion arises. The shapes are plain lists, made from what
-// the public interface tells about a scene. Programs draw these lists.
+// Debug views that show how the occlusion of the crowd is computed. The shapes are plain lists, made only
+// from data of the public interface. Your program can draw these lists itself.
 #pragma once
 
 #include <cstdint>
@@ -15,14 +15,15 @@ namespace crowd::lab {
 struct DebugView {
   bool spheres = false;     // the proxy spheres of bodies, coloured by bone
   bool key_points = false;  // the key points of bodies with their normals, coloured by their shadow
-  bool links = false;       // a line from each caster to each body that it darkens
+  bool links = false;       // draws a line from each caster to each body that it darkens
   bool levels = false;      // bodies in the colours of their levels of detail
   bool error = false;       // the AO of bodies against ray tracing
-  // How many bodies show spheres, key points and errors, the nearest to the camera first.
+  // The number of bodies that show spheres, key points and errors. The bodies nearest to the camera are
+  // chosen.
   std::uint32_t bodies = 1;
 };
 
-// Shapes are in world space and metres; colours are linear.
+// Shapes are in world space, in metres. Colours are linear.
 struct Ball {
   glm::vec3 centre_ws;
   float radius_m;
@@ -42,19 +43,19 @@ struct DebugShapes {
   std::vector<Line> normals, links;
 };
 
-// Returns at most `count` characters by their distance to a point.
+// Returns the `count` characters that are nearest to a point, the nearest first.
 std::vector<std::uint32_t> nearest_characters(const CrowdScene& scene, const glm::vec3& to_ws,
                                               std::uint32_t count);
 
-// The AO of a character after the last update. Waits for the GPU.
+// Returns the AO of a character, as of the last update. Waits for the GPU.
 std::vector<float> read_ao(const CrowdScene& scene, std::size_t character);
 
-// Shadows at key points are from the scene's last update on the CPU.
+// Makes the shapes of a debug view. The shadows at key points are from the scene's last update on the CPU.
 DebugShapes debug_shapes(const CrowdScene& scene, const DebugView& view, const glm::vec3& eye_ws);
 
 // Returns the colour of a level of detail; 0 is the finest.
 glm::vec3 level_colour(std::uint32_t level);
-// The colour of a shadow at a key point is dark blue at 0 and yellow from full_shadow on.
+// A key point is dark blue if its shadow is 0, and yellow if its shadow is full_shadow or more.
 inline constexpr float full_shadow = 0.25f;
 glm::vec3 shadow_colour(float shadow);
 
@@ -66,14 +67,14 @@ class DebugRenderer {
   DebugRenderer(const DebugRenderer&) = delete;
   DebugRenderer& operator=(const DebugRenderer&) = delete;
 
-  // AO error at the end of the colours.
+  // The AO error at which the colour scale ends.
   static constexpr float full_error = 0.25f;
 
-  // Draws into the bound framebuffer, which must still have the picture's depth. Proxy spheres show through
-  // their body.
+  // Draws into the bound framebuffer. Its depth buffer must still have the picture's depth. Proxy spheres are
+  // visible through their body.
   void draw(const DebugShapes& shapes, const Camera& camera);
-  // Draws bodies again in the colours of an error. `ao` is Nook's AO less the true AO: blue where the body is
-  // too bright, red where it is too dark.
+  // Draws the bodies again, coloured by their error. `ao` must have the error, which is Nook's AO minus the
+  // true AO. Parts that are too bright become blue, and parts that are too dark become red.
   void draw_errors(Renderer& renderer, std::span<const DrawnInstance> bodies, const Camera& camera);
 
  private:
@@ -89,7 +90,7 @@ class DebugRenderer {
 
   const GladGLContext& gl_;
   platform::Program ball_, line_, error_;
-  GLuint arrays_[2] = {};  // for balls and lines
+  GLuint arrays_[2] = {};  // vertex arrays of balls and lines
   GLuint buffer_ = 0;
 };
 

@@ -14,7 +14,8 @@ namespace crowd::lab {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-// Resolves the narrowest lobes of a probe with a few dozen.
+// Height of the environment of a probe, in texels. It resolves the narrowest lobes of a probe with a few
+// dozen lobes.
 constexpr std::uint32_t probe_height = 128;
 
 struct Map {
@@ -23,7 +24,7 @@ struct Map {
 };
 
 // Returns the direction of a texel's centre in the layout of nook_bake_environment. The middle column looks
-// along +x, and the column a quarter farther right looks along +z.
+// along +x. The column that is a quarter of the width farther right looks along +z.
 void texel_direction(std::uint32_t x, std::uint32_t y, std::uint32_t width, std::uint32_t height,
                      float* out) {
   const float polar = pi * (float(y) + 0.5f) / float(height);
@@ -33,7 +34,7 @@ void texel_direction(std::uint32_t x, std::uint32_t y, std::uint32_t width, std:
   out[2] = std::sin(polar) * std::sin(azimuth);
 }
 
-// The share of the sphere that a texel covers.
+// Returns the share of the sphere that a texel in row `y` covers.
 float texel_share(std::uint32_t y, std::uint32_t width, std::uint32_t height) {
   const float top = std::cos(pi * float(y) / float(height)),
               bottom = std::cos(pi * float(y + 1) / float(height));

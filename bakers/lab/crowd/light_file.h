@@ -1,4 +1,4 @@
-// Reads lights from files: the lobes, and the environment that the lobes represent.
+// Reads lights from files. A light has lobes, and the environment that the lobes represent.
 #pragma once
 
 #include <nook/experimental/nook_trace.h>
@@ -15,17 +15,17 @@ namespace crowd::lab {
 struct MapLight {
   std::string name;
   Light light;
-  std::vector<float> rgb;  // of the environment
+  std::vector<float> rgb;  // pixels of the environment
   std::uint32_t width = 0, height = 0;
-  // The mean over the sphere and the channels. A constant light with this radiance has the same power.
+  // Mean radiance over the sphere and the channels. A constant light with this radiance has the same power.
   float mean_radiance = 0;
 
   nook_bake_environment environment() const { return {rgb.data(), width, height}; }
 };
 
-// Reads a probe's file, or a latitude-longitude map, to which it fits 12 lobes. The lobes of a probe are its
-// environment too. Throws std::runtime_error and nook::Error. Fitted lobes of a map overlap with both signs,
-// so that none of them is a sun.
+// Reads a probe file or a latitude-longitude map. For a map, it fits 12 lobes. For a probe, the environment
+// is computed from the lobes. Throws std::runtime_error and nook::Error. The lobes fitted to a map overlap
+// and have both signs, so no single lobe represents the sun.
 MapLight read_light(const nook::Context& context, const std::filesystem::path& path);
 
 // Returns a light whose environment is its own lobes.

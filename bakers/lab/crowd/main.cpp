@@ -1,4 +1,5 @@
-// Measures the crowd of samples/crowd: draws it, times its frames, and compares it with ray tracing.
+// nook-lab-crowd: measures the crowd of samples/crowd. It draws the crowd, times the frames, and compares the
+// result with ray tracing.
 #include <cstdio>
 #include <exception>
 #include <memory>
@@ -94,7 +95,7 @@ std::optional<NamedLight> light_of_frames(const nook::Context& context, const Op
   return NamedLight{std::move(first.name), std::move(first.light)};
 }
 
-// Tries the newest OpenGL first and then 3.3, which is enough for the crowd.
+// Creates a context of the newest OpenGL, or of OpenGL 3.3, which is sufficient for the crowd.
 std::unique_ptr<platform::Context> create_context(const Options& o) {
   platform::ContextRequest request;
   request.kind = o.context;

@@ -14,7 +14,7 @@ namespace {
 
 namespace measure = nook::lab::crowd;
 
-// Shows given irradiance, at vertices or in a texture on the ground. Compresses bright parts.
+// Shows the given irradiance, from vertices or from a texture on the ground. Bright parts are compressed.
 const char* const given_light_fragment = R"(#version 330 core
 in vec3 surface_position_ws;
 in vec3 surface_albedo;
@@ -55,7 +55,7 @@ PlainLook panel_look() {
   return look;
 }
 
-// Draws the panels of the sheets: a group of the crowd with given values at its vertices.
+// Draws the panels of the sheets. A panel shows a group of the crowd with given values at the vertices.
 class Panels final : public measure::PanelRenderer {
  public:
   Panels(const Stage& stage, const std::vector<Bones>& poses)
@@ -72,7 +72,7 @@ class Panels final : public measure::PanelRenderer {
 
   const Stage& stage_;
   const std::vector<Bones>& poses_;
-  platform::Program character_, ground_;  // show given irradiance
+  platform::Program character_, ground_;  // programs that show given irradiance
 };
 
 std::vector<DrawnInstance> Panels::instances_of(const measure::Group& group) const {
@@ -126,7 +126,7 @@ platform::Image Panels::draw(const measure::Group& group, const measure::Irradia
   return stage_.target.read();
 }
 
-// Evaluates the poses that a scene holds.
+// Evaluates the crowd in the poses that the scene holds.
 class Evaluated final : public measure::EvaluatedCrowd {
  public:
   explicit Evaluated(CrowdScene& scene) : scene_(scene) {}
@@ -156,7 +156,7 @@ class Evaluated final : public measure::EvaluatedCrowd {
   CrowdScene& scene_;
 };
 
-// Everything that a measure::Subject refers to.
+// Owns everything that a measure::Subject refers to.
 struct Measured {
   Measured(const Stage& stage, CrowdScene& scene, const std::vector<Bones>& poses,
            const ComparisonRequest& request)

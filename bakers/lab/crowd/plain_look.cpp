@@ -8,9 +8,9 @@ namespace {
 
 constexpr GLsizei shadow_size_px = 2048;
 
-// Ambient light of two hemispheres times AO, and a key light with a soft shadow map. AO comes from the
-// vertices. use_screen_ao multiplies it by screen-space AO. use_floor_ao multiplies it on the ground by a
-// texture that lies there.
+// Lights a surface with hemispherical ambient light, multiplied by AO, and with a key light that has a soft
+// shadow map. The AO is from the vertices. With use_screen_ao, it is multiplied by screen-space AO. With
+// use_floor_ao, it is multiplied on the ground by a texture.
 const char* const plain_fragment = R"(
 in vec3 surface_position_ws;
 in vec3 surface_normal_ws;
@@ -55,7 +55,7 @@ void main() {
 }
 )";
 
-// Draws the depth for the key light, only for characters.
+// Draws the shadow map of the key light, which contains only characters.
 const char* const shadow_fragment = "#version 330 core\nvoid main() {}\n";
 
 }  // namespace

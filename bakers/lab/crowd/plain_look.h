@@ -1,14 +1,15 @@
-// Draws the crowd in plain ambient light times AO and a key light, for pictures that should show AO itself.
+// Draws the crowd with plain ambient light, multiplied by AO, and a key light. Use it for pictures that
+// should show the AO itself.
 #pragma once
 
 #include "samples/crowd/crowd_renderer.h"
 
 namespace crowd::lab {
 
-// A texture on a square of the ground, for example AO.
+// A texture, for example AO, that covers a square of the ground.
 struct FloorTexture {
-  GLuint texture = 0;                 // 0 if there is none; filtered linearly, clamped to its edge
-  glm::vec2 first_m{0}, extent_m{1};  // x and z of the texture's corner, and its sides
+  GLuint texture = 0;                 // 0: no texture; must be filtered linearly and clamped to its edge
+  glm::vec2 first_m{0}, extent_m{1};  // x and z of the texture's corner, and the lengths of its sides
 };
 
 struct PlainLook {
@@ -17,7 +18,7 @@ struct PlainLook {
   glm::vec3 background{0.38f, 0.43f, 0.50f};
   float fog_start_m = 22;
   ScreenAo screen_ao;
-  FloorTexture floor_ao;  // 1 on its rim
+  FloorTexture floor_ao;  // its border must be 1
 };
 
 class PlainRenderer {
@@ -28,7 +29,7 @@ class PlainRenderer {
   PlainRenderer(const PlainRenderer&) = delete;
   PlainRenderer& operator=(const PlainRenderer&) = delete;
 
-  // Draws into the bound framebuffer, whose viewport must be set. The shadow map covers shadow_radius_m
+  // Draws into the bound framebuffer. Set the viewport before the call. The shadow map covers shadow_radius_m
   // around shadow_centre_ws.
   void draw(std::span<const DrawnInstance> instances, const Camera& camera, const PlainLook& look,
             const glm::vec3& shadow_centre_ws, float shadow_radius_m);
@@ -45,7 +46,8 @@ class PlainRenderer {
   glm::mat4 shadow_from_world_{1};
 };
 
-// The texture is bound as floor_ao or floor_light; the program is in use.
+// Sets the floor uniforms of `program`. Before the call, use the program and bind the texture as floor_ao or
+// floor_light.
 void set_floor(const GladGLContext& gl, const platform::Program& program, const FloorTexture& floor);
 
 }  // namespace crowd::lab

@@ -12,13 +12,14 @@ constexpr float near_m = 1.0f;
 
 constexpr float group_distance_m = 4.6f;  // from the camera to the group
 constexpr int bearings = 24;              // number of directions that the camera may look from
-constexpr float body_reach_m = 1.2f;      // from a character's root to its fingers and toes
+constexpr float body_reach_m = 1.2f;      // from a character's root to the fingers and toes
 
 float squared_distance(const Place& a, const Place& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-// Returns how much stands between the focus and a camera at this bearing.
+// Returns a measure of how much the other characters block the view from a camera at this bearing to the
+// focus.
 float obstruction(std::span<const Place> places, const Place& focus, float bearing_rad) {
   const float s = std::sin(bearing_rad), c = std::cos(bearing_rad);
   float sum = 0;
@@ -73,7 +74,7 @@ std::uint32_t busiest(std::span<const Place> places, float distance_m) {
     float score = 0;
     for (const Place& other : places)
       if (squared_distance(places[i], other) <= distance_m * distance_m) score += 1;
-    // The penalty is smaller than the score of one neighbour, so that it only breaks ties.
+    // This penalty is smaller than the score of one neighbour, so it only decides between equal scores.
     score -= 0.5f * std::min(1.0f, std::hypot(places[i].x, places[i].y) / 100);
     if (score > best_score) {
       best_score = score;
@@ -102,7 +103,8 @@ Group choose_group(std::span<const Place> places) {
   group.view.eye_ws =
       group.view.target_ws + group_distance_m * glm::vec3(std::sin(bearing), 0.28f, std::cos(bearing));
   group.members = nearest_to(places, focus, group_size);
-  // A body right in front of the lens would hide the group, so it is left out. What it darkens stays dark.
+  // A body directly in front of the camera would hide the group, so it is not drawn. It still darkens the
+  // other bodies.
   std::erase_if(group.members, [&](std::uint32_t i) {
     return std::hypot(places[i].x - group.view.eye_ws.x, places[i].y - group.view.eye_ws.z) <
            0.6f * group_distance_m;

@@ -8,8 +8,8 @@ namespace {
 
 constexpr int dot_px = 2, gap_px = 4;
 
-// Holds the columns of each letter from left to right, with the lowest bit on top. Letters are in ASCII order
-// and begin with the space.
+// The columns of each letter, from left to right. The lowest bit of a column is the top dot. The letters are
+// in ASCII order, beginning with the space.
 constexpr std::array<std::array<std::uint8_t, 5>, 95> glyphs{{
     {0x00, 0x00, 0x00, 0x00, 0x00}, {0x00, 0x00, 0x5F, 0x00, 0x00}, {0x00, 0x07, 0x00, 0x07, 0x00},
     {0x14, 0x7F, 0x14, 0x7F, 0x14}, {0x24, 0x2A, 0x7F, 0x2A, 0x12}, {0x23, 0x13, 0x08, 0x64, 0x62},

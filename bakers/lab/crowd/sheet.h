@@ -1,4 +1,4 @@
-// Sheets of labelled pictures, made without a font file.
+// Makes sheets of labelled pictures. No font file is needed.
 #pragma once
 
 #include <string>
@@ -10,10 +10,12 @@ namespace nook::lab::crowd {
 
 constexpr int label_height_px = 30;
 
-// Draws white text on a dark strip of label_height_px along the top. Letters have 5 by 7 dots of two pixels.
+// Draws white text on a dark strip along the top, which is label_height_px high. Letters have 5 by 7 dots,
+// and each dot has 2 by 2 pixels.
 void draw_label(platform::Image& image, const std::string& text);
 
-// Puts pictures of equal size into rows with the given number of columns, with a thin white gap between them.
+// Arranges pictures of equal size in a grid with `columns` columns. There is a thin white gap between
+// pictures.
 platform::Image tile(const std::vector<platform::Image>& pictures, int columns);
 
 }  // namespace nook::lab::crowd

@@ -22,7 +22,7 @@ void write_recorded_frame(ScreenPasses& passes, const std::filesystem::path& fol
   passes.screen.record(passes.frame, passes.screen_frame, note.c_str()).write(folder / name);
 }
 
-// Draws one frame after the other and times its stages.
+// Draws the frames one after the other and times their stages.
 class FrameDrawer {
  public:
   FrameDrawer(const Stage& stage, CrowdScene& scene, const FrameRequest& request)
@@ -92,7 +92,7 @@ class FrameDrawer {
   DebugOverlay debug_;
 };
 
-// Reads one number per pixel of the last frame, and whether a surface is there.
+// Reads one value per pixel of the last frame. Also reads whether the pixel shows a surface.
 std::vector<float> read(const GladGLContext& gl, const ScreenPasses& passes, GLuint texture, GLenum format) {
   std::vector<float> values(std::size_t(passes.width_px) * std::size_t(passes.height_px));
   gl.PixelStorei(GL_PACK_ALIGNMENT, 4);
@@ -102,7 +102,8 @@ std::vector<float> read(const GladGLContext& gl, const ScreenPasses& passes, GLu
   return values;
 }
 
-// Returns the last frame of the world pass, with AO in place of the light, which may be gone.
+// Returns the description of the last frame of the world pass, with AO instead of light. The light may no
+// longer exist.
 nook_world_frame_desc last_frame(const ScreenPasses& passes) {
   nook_world_frame_desc frame = passes.world_frame;
   frame.lobes = nullptr;
@@ -132,7 +133,7 @@ FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest
   for (std::uint32_t frame = 0; frame < request.frames; ++frame) {
     const FrameTimes now = drawer.draw(frame);
     progress(frame + 1);
-    // The first frame also makes buffers and compiles shaders, so it does not count.
+    // The first frame is not counted, because it also creates buffers and compiles shaders.
     if (frame == 0 && request.frames > 1) continue;
     sum.pose += now.pose;
     sum.scene_update += now.scene_update;

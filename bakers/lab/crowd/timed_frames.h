@@ -1,4 +1,4 @@
-// Draws the frames of the animation, times them, and records the frames of the screen-space pass.
+// Draws the frames of the animation, measures their times, and records the frames of the screen-space pass.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace crowd::lab {
 
-// What every picture is drawn with. main owns it.
+// The objects that every picture is drawn with. main() owns them.
 struct Stage {
   const platform::Context& context;
   const Hero& hero;
@@ -19,10 +19,11 @@ struct Stage {
   Renderer& renderer;
   PlainRenderer& plain;
   platform::RenderTarget& target;
-  ScreenPasses* passes;  // null without AO on the floor
+  ScreenPasses* passes;  // null: no AO on the floor
 };
 
-// Milliseconds of the wall clock; each stage waits for the GPU. Means over the frames after the first.
+// Wall-clock times in milliseconds. They are means over the frames, without the first frame. Each stage waits
+// for the GPU.
 struct FrameTimes {
   double pose = 0, scene_update = 0, screen_space = 0, draw = 0, read = 0;
 };
@@ -30,22 +31,22 @@ struct FrameTimes {
 struct FrameRequest {
   std::uint32_t frames = 4;
   std::filesystem::path out;
-  const Light* light = nullptr;  // null for plain ambient light and a key light
-  // Folder to record each frame of the screen-space pass in, as frame_0000.nook and so on; empty: none. `nook
-  // evaluate nnao --frame` replays them.
+  const Light* light = nullptr;  // null: plain ambient light and a key light
+  // The folder in which each frame of the screen-space pass is recorded, as frame_0000.nook and so on. If
+  // empty, nothing is recorded. `nook evaluate nnao --frame` replays the files.
   std::filesystem::path record;
   DebugView debug;  // drawn over each frame
 };
 
-// Writes frame_0000.png and so on, and calls progress with the number of frames that are done.
+// Writes frame_0000.png and so on. After each frame, calls `progress` with the number of finished frames.
 FrameTimes draw_frames(const Stage& stage, CrowdScene& scene, const FrameRequest& request,
                        const std::function<void(std::uint32_t)>& progress);
 
-// Returns the mean over pixels with a surface of a number that the world pass counts in the last frame. Waits
+// Returns a counter of the world pass in the last frame, averaged over the pixels that show a surface. Waits
 // for the GPU.
 double mean_count(const GladGLContext& gl, ScreenPasses& passes, nook_world_view view);
-// Compares the world pass in the last frame with one of full resolution that evaluates every caster
-// everywhere. Returns the rms difference over pixels with a surface. Waits for the GPU.
+// Compares the world pass of the last frame with a pass at full resolution that evaluates every caster at
+// every pixel. Returns the rms difference over the pixels that show a surface. Waits for the GPU.
 double rms_to_every_caster(const GladGLContext& gl, ScreenPasses& passes, const nook::Gl& nook_gl);
 
 }  // namespace crowd::lab

@@ -11,14 +11,14 @@
 namespace nook::lab::crowd {
 namespace {
 
-// A body farther away covers less than 1e-3 of a vertex's hemisphere.
+// Bodies farther away than this are ignored, because they cover less than 1e-3 of a vertex's hemisphere.
 constexpr float far_body_m = 15.0f;
 
 constexpr float ground_half_m = 1000.0f, g = ground_half_m;
 constexpr float ground_corners[12] = {-g, 0, -g, g, 0, -g, -g, 0, g, g, 0, g};
 constexpr std::uint32_t ground_triangles[6] = {0, 2, 1, 1, 2, 3};
 
-// The points at which something is traced.
+// The points at which AO or light is traced.
 struct Points {
   std::vector<float> positions, normals;
 
@@ -58,7 +58,7 @@ struct Surroundings {
   }
 
   std::vector<Body> bodies;
-  std::vector<std::uint32_t> body_of;  // index into bodies by character
+  std::vector<std::uint32_t> body_of;  // for each character, the index into `bodies`
 };
 
 VertexValues split_evenly(const std::vector<float>& values, std::size_t parts) {
@@ -134,7 +134,8 @@ glm::vec3 point(const std::vector<float>& positions, std::uint32_t vertex) {
   return {positions[3 * vertex], positions[3 * vertex + 1], positions[3 * vertex + 2]};
 }
 
-// Each vertex has a third of the area of each triangle that uses it. Square metres.
+// Returns the area of each vertex in square metres: a third of the area of each triangle that uses the
+// vertex.
 std::vector<double> vertex_areas(const PosedCrowd& crowd, const std::vector<float>& positions) {
   std::vector<double> areas(crowd.vertex_count(), 0.0);
   for (std::size_t t = 0; t < crowd.triangles().size(); t += 3) {

@@ -1,5 +1,5 @@
-// Makes the reference of the crowd at one moment: ray-traced ambient occlusion and light, and errors against
-// them.
+// Computes the reference of the crowd at one moment by ray tracing, for ambient occlusion and light. Also
+// computes errors relative to the reference.
 #pragma once
 
 #include <nook/experimental/nook_trace.h>
@@ -12,23 +12,23 @@
 
 namespace nook::lab::crowd {
 
-// The skinning matrices of one character: 12 floats for each bone, the three rows of a matrix from the rest
+// The skinning matrices of one character. Each bone has 12 floats, the three rows of the matrix from the rest
 // pose to world space.
 using Bones = std::vector<float>;
 
-// The values at the vertices of several characters are one array per character. A vertex has one float or,
-// for light, three.
+// Values at the vertices of several characters, one array per character. Each vertex has one float or, for
+// light, three floats.
 using VertexValues = std::vector<std::vector<float>>;
 
-// A character in a pose: three floats per vertex, in world space, positions in metres.
+// A posed character in world space. Each array has three floats per vertex. Positions are in metres.
 struct Body {
   std::vector<float> positions, normals;
 };
 
-// Many instances of one imported character.
+// Many instances of one imported character, each in its own pose.
 class PosedCrowd {
  public:
-  // The character and the poses must outlive this object.
+  // `character` and `poses` must outlive this object.
   PosedCrowd(nook_bake_character character, std::span<const Bones> poses);
 
   std::size_t size() const { return poses_.size(); }
@@ -36,7 +36,7 @@ class PosedCrowd {
   const std::vector<std::uint32_t>& triangles() const { return triangles_; }  // three indices each
 
   Body body(std::size_t character) const;
-  // Returns the x and z of the first bone, which is precise enough to find distant bodies.
+  // Returns x and z of the first bone. This is precise enough to find distant bodies.
   glm::vec2 ground_position_m(std::size_t character) const;
 
  private:
@@ -53,43 +53,44 @@ struct TraceSettings {
 };
 
 // Returns the AO of the receivers' vertices. All bodies near a receiver occlude it. The ground occludes it if
-// the settings include it.
+// the settings say so.
 VertexValues traced_ao(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers,
                        const TraceSettings& settings);
 
-// A square of the ground plane y = 0 with side x side points. The first point lies at the low corner, and x
-// runs fastest.
+// A square of the ground plane y = 0 with `side` x `side` points. The first point is at the corner with the
+// lowest x and z, and x varies fastest.
 struct FloorPatch {
   float low_x_m = 0, low_z_m = 0, size_m = 1;
   std::uint32_t side = 2;
 };
 
-// Returns the AO of the patch's points. Only the given characters occlude them. Rays end after radius_m.
+// Returns the AO at the points of the patch. Only the given characters occlude. Rays end after radius_m.
 std::vector<float> traced_floor_ao(const PosedCrowd& crowd, std::span<const std::uint32_t> casters,
                                    const FloorPatch& patch, float radius_m, const TraceSettings& settings);
 
-// Irradiance, three floats per point. All bodies and the ground are black, so that this is what occlusion
-// alone leaves of the environment's light.
+// Irradiance, three floats per point. All bodies and the ground are black. The irradiance is therefore the
+// part of the environment's light that is not occluded, without light from surfaces.
 struct TracedIrradiance {
   VertexValues bodies;
   std::vector<float> floor;
 };
 
-// Returns the irradiance of the receivers' vertices and, unless patch is null, of a patch of the floor.
+// Returns the irradiance at the receivers' vertices. If `patch` is not null, also returns the irradiance at
+// the points of the patch.
 TracedIrradiance traced_irradiance(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers,
                                    const FloorPatch* patch, const nook_bake_environment& environment,
                                    const TraceSettings& settings);
 
-// Errors of values at vertices against their reference.
+// Errors of vertex values relative to their reference.
 struct Errors {
   double mse = 0;  // mean over vertices
-  // For AO: the mean over vertices whose reference is at least visible_truth; 0 if there are none.
+  // Only for AO: the mean over vertices whose reference AO is at least visible_truth, or 0 if there are none.
   double mse_visible = 0;
   double mse_area = 0;  // weighted by each vertex's area on the posed surface
 };
 
-// Returns the errors over all receivers. Each vertex has `channels` values, and errors are in units of
-// `unit`. Vertices without a triangle do not count. Values with one channel are AO.
+// Returns the errors over all receivers. Each vertex has `channels` values; one channel means AO. Errors are
+// in units of `unit`. Vertices without a triangle do not count.
 Errors compare(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers, const VertexValues& values,
                const VertexValues& reference, std::uint32_t channels = 1, float unit = 1);
 

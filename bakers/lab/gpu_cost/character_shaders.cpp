@@ -10,7 +10,7 @@ Loop tiles(const char* over, bool runs) {
   return {over, runs ? trips::tiles : 0, {{"spheres of a tile", trips::spheres_in_tile, {}}}};
 }
 
-// The shader contains both ways to add casters; composed selects one.
+// The shader contains both ways to add casters. `composed` selects one of them.
 std::vector<Loop> shadow_loops(bool composed) {
   return {tiles("tiles of own spheres", true),
           {"casters",
@@ -58,7 +58,7 @@ std::vector<ShaderCase> character_shaders() {
     const std::string path = std::string("shaders/character/") + file;
     shaders.push_back(tree_shader(stage, path, file + variant, defines, loops));
   };
-  // Even bones need no turns to the nearest rotation.
+  // Bones without shear or non-uniform scale skip the search for the nearest rotation.
   add(Stage::compute, "pose_convert.comp", "", "",
       {{"bones of a thread", trips::bones_of_thread, {{"turns of an uneven bone", 0, {}}}}});
   add(Stage::compute, "pose_place.comp", "", "",

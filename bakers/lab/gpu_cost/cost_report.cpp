@@ -8,10 +8,10 @@
 namespace nook::lab {
 namespace {
 
-// A line of a table, cut where it is longer.
+// The text of a table line. Longer lines are truncated.
 using Line = std::array<char, 300>;
 
-// Columns of a report's rows that hold instructions.
+// A column of the report that holds an instruction count.
 struct Column {
   const char* key;
   InstructionClass counted;
@@ -84,7 +84,7 @@ void compare_family(Comparison& comparison, const FamilyCost& before, const Fami
       unmatched(shader.name, "new");
       continue;
     }
-    // Every shader has instructions.
+    // The maximum avoids a division by 0. Real shaders always have cycles.
     const double ratio = shader.cycles / std::max(was->cycles, 1.0);
     const bool above = ratio > limit;
     std::snprintf(line.data(), line.size(), "%-9s %-52s %10.1f %10.1f %8.3f%s\n", after.family.c_str(),

@@ -1,5 +1,5 @@
-// Counts all shaders and passes of a tree, or reads them from the file of an earlier run. Prints the table,
-// and compares two reports.
+// Counts all shaders and passes of a source tree, or reads the counts of an earlier run from its file. Prints
+// the table, and compares two reports.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -25,15 +25,16 @@ struct CostReport {
   std::string driver;
   std::vector<FamilyCost> families;
 
-  // Returns a line with the reason for each shader without numbers; empty if there is none.
+  // Returns one line for each shader that could not be counted, with the reason. Returns an empty string if
+  // all were counted.
   std::string errors() const;
 };
 
-// Counts the shaders whose name contains `only`. A pass needs all of its shaders.
+// Counts the shaders whose name contains `only`. A pass is reported only if all of its shaders are counted.
 CostReport count_tree(const SourceTree& tree, const std::vector<std::string>& families,
                       const std::string& only);
 
-// A row is a line, so that a changed shader is a changed line.
+// Writes each row on its own line, so that a changed shader is one changed line in a diff.
 std::string report_text(const CostReport& report);
 CostReport from_json(const nlohmann::json& json);
 
@@ -42,10 +43,10 @@ std::string cost_table(const CostReport& report);
 struct Comparison {
   std::string text;
   std::vector<std::string> above_limit;  // shaders whose cycles grew by more than the limit
-  std::vector<std::string> unmatched;    // shaders and passes that only one report has
+  std::vector<std::string> unmatched;    // shaders and passes that exist in only one report
 };
 
-// Returns the ratio of the cycles of every shader and pass in both reports, by family.
+// Compares the cycles of every shader and pass that exists in both reports, for each family.
 Comparison compare(const CostReport& before, const CostReport& after, double limit);
 
 }  // namespace nook::lab

@@ -28,7 +28,8 @@ bool is_branch(std::string_view mnemonic) {
   return begins_with_any(mnemonic, {"s_cbranch", "s_branch"});
 }
 
-// A label is `BB12:` at the beginning of a line; instructions are indented.
+// Returns whether a line is a label. A label such as `BB12:` begins at the start of the line; instructions
+// are indented.
 bool is_label(std::string_view line) {
   return line.starts_with("BB") && line.find(':') != line.npos;
 }
@@ -56,7 +57,7 @@ std::vector<Block> parse_blocks(const std::string& disassembly) {
   return blocks;
 }
 
-// Blocks from first to last. The last jumps back to the first.
+// A range of blocks. For a loop, the last block jumps back to the first.
 struct Span {
   std::size_t first = 0, last = 0;
 };
@@ -117,7 +118,8 @@ bool has_branch(const std::vector<Loop>& loops) {
                      [](const Loop& loop) { return loop.is_branch || has_branch(loop.inside); });
 }
 
-// Outer ones before inner ones, in the order of the text.
+// Returns the loops, and also the large branches if `branches` is true. They are in the order of the text,
+// outer ones before inner ones.
 std::vector<Span> find_spans(const std::vector<Block>& blocks, bool branches) {
   std::vector<Span> spans = find_loops(blocks);
   if (!branches) return spans;
@@ -129,7 +131,7 @@ std::vector<Span> find_spans(const std::vector<Block>& blocks, bool branches) {
   return spans;
 }
 
-// The expected loops, outer before inner, each with its depth.
+// An expected loop with its nesting depth. In the list, outer loops come before their inner loops.
 struct FlatLoop {
   const Loop* loop;
   std::size_t depth;
@@ -176,7 +178,7 @@ InstructionClass classify(std::string_view m) {
   if (begins_with_any(m,
                       {"v_rcp_", "v_rsq_", "v_sqrt_", "v_sin_", "v_cos_", "v_exp_", "v_log_", "v_mul_lo_u32",
                        "v_mul_lo_i32", "v_mul_hi_u32", "v_mul_hi_i32", "v_mad_u64_u32", "v_mad_i64_i32"})) {
-    // Products of 24-bit integers, v_mul_hi_u32_u24, have the full rate.
+    // Multiplications of 24-bit integers, such as v_mul_hi_u32_u24, run at the full rate.
     return m.find("24") == m.npos ? quarter_rate : vector;
   }
   if (begins_with_any(m, {"v_"})) return vector;

@@ -1,5 +1,6 @@
-// Counts the instructions of a disassembly that a wave executes. Loops are weighed by their trip counts. Both
-// sides of a branch count, or for large branches the share of threads that take them.
+// Counts the instructions that a wave executes, from a disassembly. The instructions of a loop are multiplied
+// by its trip count. Both sides of a branch are counted. Large branches can be multiplied by the share of
+// threads that take them.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@ enum class InstructionClass {
   quarter_rate,  // transcendental functions and multiplication of 32-bit integers
   fetch,         // textures and buffers
   store,
-  local_memory,  // memory shared by a group
+  local_memory,  // memory that a thread group shares
   scalar,
   scalar_load,
   other,  // branches, waiting, exports
@@ -30,22 +31,22 @@ struct InstructionCounts {
   double operator[](InstructionClass c) const { return number[std::size_t(c)]; }
 };
 
-// A loop of the source that the disassembly must also have, with the loops inside it, in the order of the
-// text. If one entry is a branch, the entries must include every branch that threads may skip, with
-// least_branch_cycles or more and without a loop.
+// A loop of the source that must also exist in the disassembly, with its inner loops in the order of the
+// text. An entry can also be a branch. If one entry is a branch, you must list every branch without a loop
+// that threads may skip and that has at least least_branch_cycles.
 struct Loop {
-  const char* over;  // what it loops over, or what takes the branch
-  double trips = 0;  // for a branch, the share of threads that take it
+  const char* over;  // what the loop runs over, or what takes the branch
+  double trips = 0;  // trip count; for a branch, the share of threads that take it
   std::vector<Loop> inside;
   bool is_branch = false;
 };
-inline constexpr int least_branch_cycles = 90;  // for arithmetic
+inline constexpr int least_branch_cycles = 90;  // cycles of arithmetic
 
-// Throws if the disassembly's loops are nested otherwise than expected, because a compiler unrolls
-// differently. The message shows both.
+// Throws if the nesting of the loops in the disassembly differs from `expected`, for example because the
+// compiler unrolls a loop. The message shows both.
 InstructionCounts count_instructions(const std::string& disassembly, const std::vector<Loop>& expected);
 
-// Returns the loops of a disassembly as text. Each has its first block and the instructions of one trip.
+// Returns the loops of a disassembly as text, each with its first block and the instructions of one trip.
 std::string describe_loops(const std::string& disassembly);
 
 }  // namespace nook::lab

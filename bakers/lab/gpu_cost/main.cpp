@@ -1,5 +1,5 @@
-// nook_gpu_cost: estimates what the shaders of a tree cost on GPUs that are not there, and how two trees
-// differ.
+// nook_gpu_cost: estimates the cost of a tree's shaders on GPUs that this machine does not have, and compares
+// two trees.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <cstdlib>
@@ -16,7 +16,8 @@ namespace {
 using namespace nook::lab;
 namespace fs = std::filesystem;
 
-// RADV ends the process on an unknown name. The loops of materials are known for the default families.
+// The accepted GPU families. RADV ends the process if it gets an unknown name. The loops of materials are
+// known only for the default families.
 const std::set<std::string> known_families = {"polaris10", "vega10",  "vega20",  "navi10",  "navi21",
                                               "navi23",    "gfx1036", "gfx1100", "gfx1101", "gfx1102"};
 
@@ -32,7 +33,8 @@ struct Options {
   double limit = 1e9;
 };
 
-// OpenGL ES 3.0 replaces a texture buffer by a 2D texture whose rows follow each other.
+// OpenGL ES 3.0 has no texture buffers. A 2D texture replaces them, and its rows are read one after the
+// other.
 constexpr char texture_rows[] =
     "#define samplerBuffer sampler2D\n"
     "vec4 texelFetch(sampler2D rows, int i) { return texelFetch(rows, ivec2(i & 2047, i >> 11), 0); }\n";
@@ -54,7 +56,7 @@ nlohmann::json read_json(const std::string& path) {
   return nlohmann::json::parse(file_text(path));
 }
 
-// Writes Vulkan GLSL, disassembly and loops of each shader, so that you can check what was counted.
+// Writes the Vulkan GLSL, the disassembly and the loops of each shader, so that you can check the counts.
 void dump(const Options& options, const SourceTree& tree) {
   fs::create_directories(options.dump);
   for (const std::string& family : options.families) {
@@ -90,7 +92,8 @@ int count(const Options& options) {
   return exit_done;
 }
 
-// A folder is a tree to count, and a file is the report of an earlier run.
+// Returns the report for `path`. If the path is a folder, the function counts the shaders of this tree. If it
+// is a file, the function reads the report of an earlier run.
 CostReport report_of(const Options& options, const std::string& path, const std::string& defines) {
   if (fs::is_directory(path)) return count_tree({path, defines}, options.families, options.only);
   return from_json(read_json(path));
@@ -117,7 +120,7 @@ int compare_two(const Options& options) {
   if (fail_for(after) != exit_done) return exit_failed;
   print_names(("above " + std::to_string(options.limit) + " times the old cycles").c_str(),
               comparison.above_limit);
-  // A report must name what its tree has, but trees may differ.
+  // A stored report must list the same shaders as the tree. Two trees may have different shaders.
   const bool of_a_report = !fs::is_directory(options.before) && options.only.empty();
   if (of_a_report) print_names("in one of both only", comparison.unmatched);
   if (comparison.above_limit.empty() && (!of_a_report || comparison.unmatched.empty())) return exit_done;
@@ -129,7 +132,8 @@ int compare_two(const Options& options) {
   return exit_failed;
 }
 
-// Without RADV nothing is counted. NOOK_REQUIRE_RADV=1 makes this a failure.
+// Called if RADV is missing, so that nothing can be counted. This is a failure only if NOOK_REQUIRE_RADV=1 is
+// set.
 int without_radv(const char* what) {
   const char* required = std::getenv("NOOK_REQUIRE_RADV");
   if (required && std::string(required) == "1") {

@@ -8,7 +8,7 @@
 namespace nook::lab {
 
 std::string material_declarations(const material::MaterialTables& tables, std::string_view host) {
-  constexpr std::uint32_t max_layers = 2048;  // layers of a texture array: the minimum of OpenGL 4.5
+  constexpr std::uint32_t max_layers = 2048;  // layers of a texture array that OpenGL 4.5 guarantees
   const String source = gl::material_source(tables, max_layers, default_memory());
   std::string_view text(source.data(), source.size());
   for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
@@ -19,19 +19,19 @@ std::string material_declarations(const material::MaterialTables& tables, std::s
 
 namespace {
 
-// Cells of the view maps that a bake with K-CTA makes.
+// Cells along each side of the view maps that a bake with K-CTA makes.
 constexpr std::uint32_t file_map_side = 64;
 
 struct Size {
   const char* name;
   std::uint32_t light_modes, view_vec4s, clusters, terms, texels;
   std::uint32_t votf_view_vec4s, votf_clusters, votf_terms;
-  // The decoding's loop that stays rolled; and on vega10 if it differs.
+  // The decoding loop that is not unrolled. The second value is for vega10, if it differs there.
   std::optional<Loop> loop, loop_on_vega10;
   bool has_relief = false;
-  std::uint32_t packed_modes = 0;  // light modes in blocks, with the VOTF
+  std::uint32_t packed_modes = 0;  // light modes in compressed blocks; if not 0, the VOTF is compressed too
 };
-// Fiber and roughhole at the paper's ranks, as in docs/lab/material_decoding.md, and weave.
+// The sizes of fiber and roughhole at the paper's ranks, as in docs/lab/material_decoding.md, and of weave.
 const Size sizes[] = {
     {"fiber, N-SVD", 16, 20, 1, 1, 96, 20, 1, 1, {}, Loop{"view vectors", 20, {}}},
     {"fiber, K-CTA, K = 3", 16, 1, 20, 3, 96, 1, 20, 3, {}, {}},
@@ -43,8 +43,8 @@ const Size sizes[] = {
 
 constexpr std::uint32_t relief_steps = 8;
 
-// Returns the loops of a size. The loop of decoding is there if it is not unrolled. The loop of the relief's
-// march always is.
+// Returns the loops of a size. The decoding loop exists only if the compiler does not unroll it. The loop of
+// the relief march always exists.
 std::vector<Loop> loops_of(const Size& size, const std::optional<Loop>& decoding) {
   std::vector<Loop> loops;
   if (size.has_relief) loops.push_back({"planes", double(relief_steps), {}});
@@ -52,7 +52,7 @@ std::vector<Loop> loops_of(const Size& size, const std::optional<Loop>& decoding
   return loops;
 }
 
-// Two fetches double the instructions in a term, so that no family unrolls them.
+// With two fetches, each term has twice as many instructions, so no GPU family unrolls the loop.
 std::vector<Loop> loops_of_two_fetches(const Size& size) {
   std::vector<Loop> loops;
   if (size.has_relief) loops.push_back({"places", 2, {{"planes", double(relief_steps), {}}}});
@@ -71,7 +71,7 @@ void set_tensor(material::TensorTables& t, std::uint32_t texels, std::uint32_t l
   t.side = t.blended ? file_map_side : material::default_map_side;
 }
 
-// Returns the library's declarations before shaders/material/host.glsl.
+// Returns the declarations that the library puts before shaders/material/host.glsl.
 std::string declarations(const Size& size) {
   material::MaterialTables tables;
   set_tensor(tables.btf, size.texels, size.light_modes, size.view_vec4s, size.clusters, size.terms);
@@ -105,7 +105,8 @@ void main() {
 }
 )";
 
-// This light is four lights and a probe of six lobes. Each lobe is a light along its axis.
+// This shader lights the material with ten lights. Four are lights, and six are the lobes of a probe. Each
+// lobe is treated as a light along its axis.
 constexpr char ten_lights[] = R"(#include "shaders/material/host.glsl"
 in vec2 uv;
 in vec3 view;
@@ -122,7 +123,8 @@ void main() {
 }
 )";
 
-// The same under radiance transfer. The vectors of the vertices are varyings, or fetched for each pixel.
+// The same lighting with radiance transfer. The transfer vectors of the vertices are varyings, or they are
+// fetched for each pixel.
 constexpr char transferred[] = R"(#include "shaders/material/host.glsl"
 #include "shaders/transfer/host.glsl"
 in vec2 uv;

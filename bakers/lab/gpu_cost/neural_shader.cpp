@@ -3,9 +3,10 @@
 namespace nook::lab {
 namespace {
 
-// The decoding of bakers/material/neural_tile.h with features that depend on the view, which the library does
-// not have. A layer of a texture has two channels (BC5). Matrices are in blocks of 4 x 4, and the blocks with
-// the same four inputs are adjacent. The first block's inputs are the view and 1, whose weights are the bias.
+// Decodes the material of bakers/material/neural_tile.h with features that depend on the view. The library
+// does not have this variant. Each texture layer has two channels (BC5). Matrices are stored in blocks of 4 x
+// 4, and blocks with the same four inputs are adjacent. The inputs of the first block are the view and the
+// constant 1, so its last weights are the bias.
 constexpr char decode[] = R"(
 uniform highp sampler2DArray nook_neural_features;
 uniform highp sampler2DArray nook_neural_offset_features;
@@ -122,7 +123,8 @@ void main() {
 
 constexpr int layers = 3;
 
-// On weave in docs/lab/materials.md, 22 channels fill the bytes of K-CTA. This rounds them up to vectors.
+// For weave in docs/lab/materials.md, 22 channels take as many bytes as K-CTA. The number is rounded up to
+// whole vectors here.
 std::string defines() {
   constexpr int channels = 24, view_side = 7, units = 32, offset_channels = 8, offset_units = 16;
   std::string text;
@@ -137,7 +139,7 @@ std::string defines() {
 }
 
 // Returns the library's declarations before shaders/material/neural/host.glsl, for the sizes of a default
-// bake. The weights are such that a compiler cannot leave out any.
+// bake. The weights are chosen so that the compiler cannot remove any of them.
 std::string declarations() {
   material::MaterialTables tables;
   material::NeuralTables& neural = tables.neural;

@@ -8,7 +8,7 @@ namespace {
 struct Grid {
   int taps, groups, steps;
 };
-// horizon_grid of sdk/src/nnao/taps.h.
+// The same grids as horizon_grid in sdk/src/nnao/taps.h.
 constexpr Grid grids[] = {{9, 3, 3}, {16, 4, 4}, {32, 8, 4}, {64, 8, 8}};
 
 std::string defines(bool half, bool horizon, const Grid& grid, bool bent = false) {
@@ -22,19 +22,20 @@ std::vector<Loop> grid_loops(const char* groups, const Grid& grid) {
   return {{groups, double(grid.groups), {{"steps", double(grid.steps), {}}}}};
 }
 
-// Compilers unroll the steps of a direction. They also unroll directions if their number is a constant.
+// Compilers unroll the steps of a direction. They also unroll the directions if the number of directions is a
+// constant.
 std::vector<Loop> direction_loops(const Grid& grid) {
   if (grid.groups <= 4) return {};
   return {{"directions", double(grid.groups), {}}};
 }
 
-// Compilers unroll four steps of the paper's form.
+// In the paper's form, compilers unroll four steps.
 std::vector<Loop> paper_loops(const Grid& grid) {
   if (grid.steps > 4) return grid_loops("groups of taps", grid);
   return {{"groups of taps", double(grid.groups), {}}};
 }
 
-// Returns the loops for the grid of the baseline's taps. Steps are on one side of a slice.
+// Returns the loops for the tap grid of a baseline. The number of steps is for one side of a slice.
 std::vector<Loop> baseline_loops(const BaselineMethod& method) {
   const BaselineGrid grid = baseline_grid(method.baseline, method.taps);
   const double groups = grid.groups, steps = grid.steps;
@@ -52,7 +53,7 @@ std::vector<Loop> baseline_loops(const BaselineMethod& method) {
     case Baseline::hbao:
       return {{"directions", groups, {{"steps", steps, {}}}}};
     case Baseline::xegtao:
-      // Steps are unrolled, because their number is known at compile time.
+      // The steps are unrolled, because the number of steps is known at compile time.
       return {{"slices", groups, {}}};
     default:
       return {{"slices", groups, {{"steps behind", steps, {}}, {"steps ahead", steps, {}}}}};

@@ -11,7 +11,7 @@
 namespace nook::lab {
 namespace {
 
-// Bindings that the storage blocks and images of a shader may have.
+// How many bindings a shader can have for storage blocks and images.
 constexpr std::size_t storage_blocks = 16, images = 5;
 constexpr std::uint32_t wave_lanes = 64;
 
@@ -21,10 +21,10 @@ void check(VkResult result, const char* call) {
                              std::to_string(result) + ")");
 }
 
-// The loader reads these variables when it makes an instance.
+// Sets the environment variables that the Vulkan loader reads when it creates an instance.
 void choose_driver(const std::string& family) {
   setenv("RADV_FORCE_FAMILY", family.c_str(), 1);
-  // Compiles vertex shaders without primitive shaders, which OpenGL does not use for transform feedback.
+  // Disables NGG (primitive shaders), because OpenGL does not use it for transform feedback.
   setenv("RADV_DEBUG", "nongg,nocache", 1);
   for (const char* option : {"RADV_PERFTEST", "ACO_DEBUG", "RADV_FORCE_VRS"}) unsetenv(option);
   if (std::getenv("VK_ICD_FILENAMES") || std::getenv("VK_DRIVER_FILES")) return;
@@ -93,7 +93,7 @@ struct NullDevice::Vulkan {
     return layout;
   }
 
-  // The sets of vulkan_glsl.h, by number.
+  // Returns the layouts of the descriptor sets in vulkan_glsl.h, by set number.
   std::vector<VkDescriptorSetLayout> set_layouts(const std::vector<std::string>& samplers) const {
     std::vector<VkDescriptorType> sampler_types;
     for (const std::string& sampler : samplers) sampler_types.push_back(sampler_descriptor(sampler));

@@ -1,4 +1,5 @@
-// A GPU that is not there: RADV, Mesa's Vulkan driver for AMD, compiles for it and gives out the result.
+// Compiles shaders for a GPU that this machine does not have. RADV, Mesa's Vulkan driver for AMD, compiles
+// for it and returns the disassembly.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +16,7 @@ struct CompiledShader {
   std::string disassembly;
   unsigned vector_registers = 0;
   unsigned scalar_registers = 0;
-  unsigned waves = 0;  // waves that a SIMD holds at once
+  unsigned waves = 0;  // waves that a SIMD unit can hold at once
   unsigned code_bytes = 0;
 };
 
@@ -26,20 +27,21 @@ struct NoRadv : std::runtime_error {
 
 class NullDevice {
  public:
-  // family is a name that RADV knows, such as navi21. Throws NoRadv.
+  // `family` is a GPU name that RADV knows, such as navi21. Throws NoRadv.
   explicit NullDevice(const std::string& family);
   ~NullDevice();
   NullDevice(const NullDevice&) = delete;
   NullDevice& operator=(const NullDevice&) = delete;
 
-  // The driver with its version.
+  // Returns the name and version of the driver.
   std::string driver() const;
 
-  // samplers: the types in set sampler_set, by binding.
+  // `samplers` has the sampler types of descriptor set sampler_set, by binding.
   CompiledShader compute(const std::vector<std::uint32_t>& spirv, const std::vector<std::string>& samplers);
 
-  // A draw. `counted` is the stage whose result is returned. attributes and targets are the types of the
-  // vertex shader's inputs and of the fragment shader's outputs, by location.
+  // A graphics pipeline. draw() returns the result of the vertex shader if `counts_vertex` is true, and
+  // otherwise of the fragment shader. `attributes` has the types of the vertex shader's inputs, and `targets`
+  // the types of the fragment shader's outputs, both by location.
   struct Draw {
     std::vector<std::uint32_t> vertex, fragment;
     bool counts_vertex = false;

@@ -92,7 +92,8 @@ std::string capture_define(const char* name, const char* value) {
   return std::string("#define NOOK_CAPTURE_").append(name) + " NOOK_CAPTURE_" + value + "\n";
 }
 
-// Adds sums over the texels of a row, means over the rows, and a probe's numbers.
+// Adds the shaders of a capture: one sums over the texels of a row, one averages over the rows, and one
+// writes the probe.
 void add_captures(std::vector<ShaderCase>& shaders) {
   const auto add = [&](const char* file, const std::string& variant, const std::string& defines,
                        const std::vector<Loop>& loops) {

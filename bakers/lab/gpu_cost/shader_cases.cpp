@@ -3,15 +3,15 @@
 namespace nook::lab {
 namespace {
 
-// A thread makes two pixels along each side, or the surface is half as wide and high.
+// The share of threads if each thread computes 2 x 2 pixels, or if the image has half the width and height.
 constexpr double quarter = 0.25;
 
-// With nine taps the filter along x does not compare AO.
+// With nine taps, the filter along x does not compare AO values.
 std::string filter_along_x(const std::string& taps) {
   return taps == "9" ? "filter.frag along x" : "filter.frag along x, 16 taps or more";
 }
 
-// stage: the network's, up to its number of taps.
+// `stage` is the name of the network's shader without its number of taps.
 PassCase nnao(const std::string& name, const std::string& stage, const std::string& taps, bool half,
               bool paper = false, const std::string& outputs = "") {
   const std::string size = half ? ", half" : "";
@@ -30,7 +30,7 @@ std::string passes_text(int passes) {
   return passes == 1 ? "once" : passes == 2 ? "twice" : "three times";
 }
 
-// Goes from the host's depth and normals to smooth AO.
+// Returns the whole pass of a baseline, from the host's depth and normals to the denoised AO.
 PassCase baseline_pass(const BaselineMethod& method, Denoiser denoiser) {
   const bool xegtao = method.baseline == Baseline::xegtao;
   PassCase pass{counted_name(method), {}};

@@ -1,4 +1,5 @@
-// Every shader that Nook ships and every baseline, with its defines and the loops of its compiled form.
+// Lists every shader that Nook ships and every baseline, with defines and with the loops that the compiled
+// shader has.
 #pragma once
 
 #include <string>
@@ -21,11 +22,11 @@ struct FamilyLoops {
 struct ShaderCase {
   std::string name;
   Stage stage = Stage::fragment;
-  std::string path;  // path from the repository's root; empty for the shader of a host
-  std::string host;  // text of a host's shader; it includes what it calls
+  std::string path;  // path from the repository's root; empty for a host's shader
+  std::string host;  // text of a host's shader, which includes the library files that it calls
   std::string defines;
   std::vector<Loop> loops;
-  std::vector<FamilyLoops> other_families;  // for families whose compiler unrolls differently
+  std::vector<FamilyLoops> other_families;  // for GPU families for which the compiler unrolls differently
 
   const std::vector<Loop>& loops_of(const std::string& family) const {
     for (const FamilyLoops& other : other_families)
@@ -34,27 +35,28 @@ struct ShaderCase {
   }
 };
 
-// A shader of the tree.
+// Returns the case of a shader in the source tree.
 ShaderCase tree_shader(Stage stage, const std::string& path, const std::string& name,
                        const std::string& defines = "", const std::vector<Loop>& loops = {});
 
-// A host's fragment shader.
+// Returns the case of a host's fragment shader.
 ShaderCase host_shader(const std::string& text, const std::string& name, const std::vector<Loop>& loops = {});
 
-// Returns the library's text of a material up to `host`, a file of shaders/ that ends it, such as
-// material/host.glsl. A counted shader includes that file from the counted tree.
+// Returns the library's shader text of a material, up to the file `host`. `host` is the last file of the
+// text, relative to shaders/, such as material/host.glsl. A counted shader includes this file from the
+// counted tree.
 std::string material_declarations(const material::MaterialTables& tables, std::string_view host);
-// Goes before the text of a material's pixel, and makes it fetch each mode at two places along the pixel.
+// Put this before the text of a material's pixel, to make it fetch each mode at two places along the pixel.
 inline constexpr char two_fetches[] = "#define TWO_FETCHES\n";
 
-// Shaders that run one after the other, each for a share of the threads.
+// A pass: shaders that run one after the other, each for a share of the threads.
 struct PassCase {
   std::string name;
   std::vector<std::pair<std::string, double>> shaders;
 };
 
-// Parts of names that baselines share. The denoiser makes two pixels per thread, and the levels four.
-// bent_normals ends the names of shaders with bent normals as a second output.
+// Parts of names that baselines share. The denoiser computes two pixels per thread, and the depth levels
+// four. The names of shaders that also output bent normals end with `bent_normals`.
 inline constexpr char bent_normals[] = ", bent normals";
 inline constexpr char baseline_blur[] = "blur of the baselines";
 inline constexpr char box_mean[] = "mean of 4 x 4 pixels";
@@ -64,7 +66,7 @@ inline constexpr char edge_denoiser[] = "edge-aware denoiser, two pixels a threa
 inline constexpr char denoiser_edges[] = "edges for the denoiser";
 inline constexpr char xegtao_levels[] = "XeGTAO depth levels, four pixels a thread";
 
-// Returns the baselines of the table, with their tuning.
+// Returns the baselines of the cost table, with their tuning.
 std::vector<BaselineMethod> counted_baselines();
 std::string counted_name(const BaselineMethod& method);
 

@@ -12,8 +12,8 @@ std::string located(const char* direction, std::size_t location, const StageVari
          " " + variable.type + " ";
 }
 
-// Returns a vertex shader that passes attributes to the inputs of a fragment shader; without inputs, it
-// covers the screen.
+// Returns a vertex shader that passes its attributes to the inputs of a fragment shader. If there are no
+// inputs, the vertex shader covers the screen.
 std::string vertex_partner(const std::vector<StageVariable>& inputs) {
   std::string text = "#version 450\n", body;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
@@ -29,8 +29,8 @@ std::string vertex_partner(const std::vector<StageVariable>& inputs) {
          "  gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);\n}\n";
 }
 
-// Returns a fragment shader that reads all outputs of a vertex shader, with each element of arrays, so that
-// none is removed.
+// Returns a fragment shader that reads all outputs of a vertex shader, including each array element, so that
+// the compiler removes none of them.
 std::string fragment_partner(const std::vector<StageVariable>& outputs) {
   std::string text = "#version 450\nlayout(location = 0) out vec4 colour;\n", body;
   std::size_t location = 0;

@@ -1,4 +1,4 @@
-// The cost of shaders on a GPU that is not there.
+// Estimates the cost of shaders on a GPU that this machine does not have.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@
 
 namespace nook::lab {
 
-// The model counts cycles of a compute unit with 64 lanes for a wave of 64 threads.
+// The cost model counts cycles of a compute unit with 64 lanes that runs a wave of 64 threads.
 inline constexpr double quarter_rate_cycles = 4, fetch_cycles = 16;
 
 struct Cycles {
@@ -24,7 +24,7 @@ struct ShaderCost {
   std::string shader;
   InstructionCounts counts;
   unsigned vector_registers = 0, scalar_registers = 0, waves = 0, code_bytes = 0;
-  std::string error;  // why there are no numbers; empty if there are
+  std::string error;  // why the shader could not be counted; empty if it was
 
   Cycles cycles() const {
     return {counts[InstructionClass::vector] + quarter_rate_cycles * counts[InstructionClass::quarter_rate],
@@ -34,16 +34,16 @@ struct ShaderCost {
 
 struct SourceTree {
   std::filesystem::path root;
-  std::string first_lines;  // before the defines of each shader
+  std::string first_lines;  // inserted before the defines of each shader
 };
 
-// A shader as Vulkan GLSL.
+// Returns a shader as Vulkan GLSL.
 VulkanGlsl vulkan_glsl(const SourceTree& tree, const ShaderCase& shader);
 
 // Compiles and disassembles a shader.
 CompiledShader compile_shader(NullDevice& device, const SourceTree& tree, const ShaderCase& shader);
 
-// Never throws for a shader that cannot be counted. The result then has the error.
+// If a shader cannot be counted, this does not throw. Instead, the `error` of the result is set.
 ShaderCost shader_cost(NullDevice& device, const std::string& family, const SourceTree& tree,
                        const ShaderCase& shader);
 

@@ -72,7 +72,7 @@ Declaration parse(const std::vector<std::string>& tokens) {
   return d;
 }
 
-// Returns the number in brackets; 0 without brackets.
+// Returns the number in the brackets, or 0 if there are no brackets.
 int elements_of(const std::string& brackets) {
   const std::size_t digits = brackets.find_first_of("0123456789");
   return digits == std::string::npos ? 0 : std::stoi(brackets.substr(digits));
@@ -80,7 +80,8 @@ int elements_of(const std::string& brackets) {
 
 class Converter {
  public:
-  // Returns the declaration in Vulkan's form; empty if it moves into the uniform block.
+  // Returns the declaration as Vulkan GLSL. Returns an empty string if the declaration is moved into the
+  // uniform block.
   std::string declaration(const std::string& text) {
     const Declaration d = parse(tokens_of(text));
     if (d.name.empty()) return text + ";";
@@ -149,7 +150,7 @@ std::string renamed_builtins(const std::string& text) {
   return out;
 }
 
-// Returns the position after the braces that open at `at`.
+// Returns the position after the closing brace that belongs to the opening brace at `at`.
 std::size_t end_of_braces(const std::string& text, std::size_t at) {
   int depth = 0;
   for (; at < text.size(); ++at) {
@@ -183,7 +184,7 @@ VulkanGlsl to_vulkan_glsl(const std::string& preprocessed) {
       } else {
         const std::size_t close = end_of_braces(text, end);
         body += text.substr(at, close - at);
-        // A name or nothing follows the braces of a block or a structure, and then a semicolon.
+        // After the braces of a block or structure, there may be a name, and then a semicolon.
         at = close;
         const std::size_t next = text.find_first_not_of(" \n\t", at);
         if (next != std::string::npos && text[next] == ';') {

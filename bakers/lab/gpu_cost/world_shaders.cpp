@@ -4,7 +4,7 @@
 namespace nook::lab {
 namespace {
 
-// One caster at a point, in the form that `call` names.
+// Returns a host's shader that evaluates one caster at a point with the function `call`.
 std::string caster_host(const char* call) {
   return std::string(
              "#include \"shaders/world/casters.glsl\"\n"
@@ -18,7 +18,8 @@ Loop branch(const char* over, double share, std::vector<Loop> inside = {}) {
   return {over, share, std::move(inside), true};
 }
 
-// For darken.comp. With `shares`, branches count by the share of threads that take them.
+// Returns the loops of darken.comp. If `shares` is true, branches are weighted by the share of threads that
+// take them.
 std::vector<Loop> near_groups(bool shares) {
   std::vector<Loop> part{{"casters of a part", trips::casters_of_group_part, {}}};
   if (shares) part.insert(part.begin(), branch("limbs of one capsule", trips::merged_parts));

@@ -10,7 +10,7 @@ namespace {
 constexpr float spacing = 1.4f;  // metres
 constexpr std::uint32_t neighbours = 4;
 
-// A nook_gl of one tier on the context of another.
+// Creates a nook_gl of the given tier on an existing context.
 class Tier {
  public:
   Tier(platform::Context& context, nook_context made_by, nook_gl_tier tier) {

@@ -1,4 +1,4 @@
-// A crowd of one model for the timings: bodies on a grid, whose poses change every frame.
+// A crowd of one model for timings. The bodies stand on a grid, and their poses change every frame.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -12,14 +12,15 @@ namespace nook::lab {
 
 class Crowd {
  public:
-  // count bodies stand on the ground y = 0, on a square grid with this spacing in metres, centred at the
-  // origin.
+  // Places `count` bodies on the ground y = 0, on a square grid that is centred at the origin. `spacing` is
+  // the grid's spacing in metres.
   Crowd(const measure::NookGl& gl, const std::filesystem::path& model, std::uint32_t count, float spacing);
   ~Crowd();
   Crowd(const Crowd&) = delete;
   Crowd& operator=(const Crowd&) = delete;
 
-  // Turns every body a little further, and links each to its k nearest neighbours; 0: none.
+  // Rotates every body a little further, and links each body to its `k` nearest neighbours. With 0, nothing
+  // is linked.
   void pose(std::uint32_t k);
   nook_scene scene() const { return scene_; }
   const std::vector<nook_instance_id>& bodies() const { return bodies_; }

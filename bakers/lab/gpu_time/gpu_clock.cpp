@@ -11,9 +11,9 @@ namespace nook::lab {
 namespace {
 
 constexpr int max_calls = 1000;  // per batch
-// Before each batch, the GPU is kept busy for this long, so that the thread is ahead of it. The GPU then
-// waits for no call between the two time stamps. Calls that take the thread longer are timed with their
-// waits.
+// Before each batch, other work keeps the GPU busy for this long, so that the CPU thread runs ahead of the
+// GPU. The GPU then does not wait for calls between the two timestamps. If the CPU needs longer than this for
+// a batch, the waits are included in the time.
 constexpr double busy_ms = 8;
 constexpr int busy_side = 64, max_busy_loops = 1 << 20;
 
@@ -51,7 +51,7 @@ GpuClock::GpuClock(const GladGLContext& gl, int batches, double batch_ms)
   gl.GenFramebuffers(1, &framebuffer_);
   gl.BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   gl.FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, target_, 0);
-  // Doubles the loops until they take long enough. The short ones wake the GPU up.
+  // Doubles the number of loops until they take long enough. The first, short runs wake the GPU up.
   while (busy_loops_ < max_busy_loops && run_one([&] { keep_busy(busy_loops_); }, 1).gpu_ms < busy_ms)
     busy_loops_ *= 2;
 }

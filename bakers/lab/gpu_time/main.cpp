@@ -1,5 +1,5 @@
-// nook_gpu_time: measures milliseconds of Nook's passes on this machine's GPU, beside the methods that the
-// documents compare the screen pass with.
+// nook_gpu_time: measures the time of Nook's passes on this machine's GPU in milliseconds. It also measures
+// the methods that the documents compare the screen pass with.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <exception>
@@ -43,7 +43,7 @@ void print(const TimedRow& row) {
 }
 
 int time_all(const Options& options) {
-  // Opens the output before the work begins, so that an error shows early.
+  // Opens the output before the work begins, so that an error is reported early.
   std::optional<platform::OutputFile> file;
   if (!options.report.empty()) file.emplace(options.report);
   platform::ContextRequest request;

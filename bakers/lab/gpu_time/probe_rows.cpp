@@ -15,7 +15,7 @@ struct Count {
   std::uint32_t counts[3];
 };
 
-// A probe of twelve lobes at each place of a grid, with amplitudes from 0 to 1.
+// A grid of probes with twelve lobes each, whose amplitudes are from 0 to 1.
 class Probe {
  public:
   Probe(const NookGl& gl, const std::uint32_t (&counts)[3]) {

@@ -45,7 +45,7 @@ std::vector<TimedRow> time_screen(const Timing& timing) {
   const GladGLContext& gl = context.gl();
   const GpuView view(gl, traced_room(std::uint32_t(width), std::uint32_t(height)));
   AoRequest request;
-  // The same share of the image as at 360 rows, where the errors are measured.
+  // This is the same share of the image height as in the error measurements, which use 360 rows.
   request.max_radius_px = 0.25f * float(height);
   std::vector<TimedRow> rows;
   for (const NamedForm& named : forms) {

@@ -16,7 +16,7 @@ struct TimedRow {
   GpuTime time;
 };
 
-// The context, and what the rows share.
+// The context and the settings that all rows share.
 struct Timing {
   platform::Context& context;
   const measure::NookGl& nook;
@@ -30,22 +30,24 @@ struct Timing {
   }
 };
 
-// Times the screen pass in its forms and every method of the comparison with its own denoiser, drawn with
-// fragment shaders. The view shows a procedural room at a radius of 0.5 metres. Also times the compute path.
+// Times the variants of the screen pass, and every method of the comparison with its own denoiser. All are
+// drawn with fragment shaders. Also times the compute path. The view shows a procedural room, and the AO
+// radius is 0.5 metres.
 std::vector<TimedRow> time_screen(const Timing& timing);
 
-// Times nook_gl_scene_update for crowds on the ground with changing poses, without neighbours and with four.
-// model: a file for nook_model_load.
+// Times nook_gl_scene_update for crowds on the ground with changing poses. Bodies have no linked neighbours
+// or four. `model` is a file for nook_model_load.
 std::vector<TimedRow> time_characters(const Timing& timing, const std::filesystem::path& model);
 
-// The world pass: 100 bodies darken the floor on which they stand.
+// Times the world pass while 100 bodies darken the floor on which they stand.
 std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::path& model);
 
-// Fills the whole image with one material in one light, for each file of nook_material_load.
+// Measures how long it takes to fill the whole image with one material under one light. `files` are files for
+// nook_material_load, one per row.
 std::vector<TimedRow> time_materials(const Timing& timing, const std::vector<std::filesystem::path>& files);
 
-// Fills the whole image with the irradiance and the glossy reflection of lobes, from a grid and from one
-// place.
+// Measures how long it takes to fill the whole image with the irradiance and the glossy reflection of probe
+// lobes. The lobes come from a grid or from a single probe.
 std::vector<TimedRow> time_probes(const Timing& timing);
 
 }  // namespace nook::lab

@@ -1,4 +1,4 @@
-// A fragment shader over the whole image, for functions that hosts call in their own shaders.
+// Runs a fragment shader over the whole image, to time functions that hosts call in their own shaders.
 #pragma once
 
 #include <glad/gl.h>
@@ -11,15 +11,15 @@ namespace nook::lab {
 
 class WholeImage {
  public:
-  // functions: GLSL of the library. body: the body of main(), which sets vec3 colour. vec2 at is the place in
-  // the image, 0 to 1.
+  // `functions` is GLSL of the library. `body` is the body of main(), which must set `vec3 colour`. In it,
+  // `vec2 at` is the position in the image, 0 to 1.
   WholeImage(const GladGLContext& gl, int width, int height, const std::string& functions,
              const std::string& body);
   ~WholeImage();
   WholeImage(const WholeImage&) = delete;
   WholeImage& operator=(const WholeImage&) = delete;
 
-  // Binds a texture to its own unit. The target is GL_TEXTURE_BUFFER or another.
+  // Binds a texture to its own unit. `target` is a texture target such as GL_TEXTURE_BUFFER.
   void bind(GLenum target, GLuint texture, const char* uniform);
   void draw() const;
 

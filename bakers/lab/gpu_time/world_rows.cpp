@@ -17,7 +17,7 @@ using namespace bake::nnao;
 constexpr std::uint32_t bodies = 100;
 constexpr float spacing = 1.4f;  // metres
 
-// Shows only the floor y = 0.
+// Returns a view that shows only the floor y = 0.
 TracedView floor_view(const Camera& camera) {
   TracedView view;
   view.camera = camera;
@@ -56,7 +56,7 @@ class WorldPass {
 
 std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::path& model) {
   std::vector<TimedRow> rows;
-  // Looks from behind the last row of the crowd over the heads of the others.
+  // The camera stands behind the last row of the crowd and looks over the heads of the others.
   const Camera camera = look_at({0, 2.5f, 11}, {0, 0.5f, 0}, 0, std::numbers::pi_v<float> / 3,
                                 std::uint32_t(timing.width), std::uint32_t(timing.height));
   const GpuView view(timing.context.gl(), floor_view(camera));

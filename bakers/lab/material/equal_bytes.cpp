@@ -21,7 +21,7 @@ using nook::material::TensorShape;
 using nook::material::ViewRows;
 using nook::material::VisibilityForm;
 
-// Returns rows that take as much room in a file as any rows of this shape.
+// Returns rows without content. In a file, they take as many bytes as any rows of this shape.
 ViewRows blank_rows(const TensorShape& shape, std::size_t count) {
   ViewRows rows;
   rows.membership.resize(count * shape.mixture);
@@ -77,11 +77,12 @@ using tensor::Matrix;
 using DataMap = Eigen::Map<const Matrix>;
 
 constexpr std::size_t block = 512;  // rows
-// Each iteration lowers twice the squared error of the last components by their spectrum's ratio. Beyond this
-// number, the S/E moves by less than 0.01 dB on the built-in materials.
+// The number of subspace iterations. Each iteration reduces the error of the last components, by a factor
+// that depends on the ratio of neighbouring singular values. With more iterations, the S/E changes by less
+// than 0.01 dB on the built-in materials.
 constexpr int iterations = 6;
 
-// A B, in blocks of A's rows.
+// Returns A B, computed in blocks of rows of A.
 Matrix times(const DataMap& a, const Matrix& b) {
   Matrix product(a.rows(), b.cols());
   tensor::for_each_block(std::size_t(a.rows()), block, [&](std::size_t first, std::size_t last) {
@@ -91,7 +92,7 @@ Matrix times(const DataMap& a, const Matrix& b) {
   return product;
 }
 
-// A^T B, in blocks of A's columns.
+// Returns A^T B, computed in blocks of columns of A.
 Matrix transposed_times(const DataMap& a, const Matrix& b) {
   Matrix product(a.cols(), b.cols());
   tensor::for_each_block(std::size_t(a.cols()), block, [&](std::size_t first, std::size_t last) {
@@ -134,7 +135,7 @@ std::size_t bytes_beside_btf(std::span<const std::byte> file) {
 }
 
 std::uint32_t n_svd_view_rank(const RawMaterial& raw, const CompressionSettings& s, std::size_t max_bytes) {
-  // A view rank adds the same number of bytes each time.
+  // Each view rank adds the same number of bytes.
   const std::size_t first = whole_file_bytes(blank_n_svd(raw, s, 1), 0);
   const auto views = std::uint32_t(raw.views.size());
   if (first > max_bytes || views < 2) return first <= max_bytes;

@@ -35,8 +35,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Returns the view rank at which an N-SVD of integers takes no more bytes than a file. The bytes depend on
-// the values, so it tries ranks, starting in proportion to the bytes of the first.
+// Returns the view rank at which an N-SVD with integer values takes at most as many bytes as a file. The size
+// depends on the values, so the function tries several ranks. The first guess is proportional to the size of
+// a trial.
 std::uint32_t filling_view_rank_of_integers(const RawMaterial& raw, CompressionSettings s,
                                             std::size_t file_bytes, const StageProgress& progress) {
   s.method = Method::n_svd;
@@ -51,7 +52,7 @@ std::uint32_t filling_view_rank_of_integers(const RawMaterial& raw, CompressionS
   return s.rank_view;
 }
 
-// Returns the view rank at which an N-SVD takes as many bytes as a file, including its recipe. The greatest
+// Returns the view rank at which an N-SVD, including its recipe, takes as many bytes as a file. The largest
 // rank has the longest recipe.
 std::uint32_t filling_view_rank(const RawMaterial& raw, CompressionSettings s, std::size_t file_bytes) {
   s.method = Method::n_svd;
@@ -76,7 +77,7 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
                          Material* material) {
   const std::uint32_t map_side = settings.made_map_side();
   const nlohmann::ordered_json recipe = describe(settings);
-  // Rows of half floats take the same room with any values.
+  // Rows of half floats have the same size with any values.
   if (!material && settings.bits == 16) settings.map_side = 0;
   const platform::Stopwatch watch;
   Material whole = compress(raw, settings, progress);
@@ -89,7 +90,7 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
   row.method = method_name(settings.method);
   row.seconds = seconds;
   if (whole.visibility != VisibilityForm::none) {
-    // Also measures the other form, at the same ranks.
+    // Also measures the other VOTF form at the same ranks.
     CompressionSettings other = settings;
     other.map_side = 0;
     other.visibility =

@@ -26,8 +26,8 @@ HeightMap heights_of(const PbrTile& tile) {
   return {tile.width, tile.height, tile.heights};
 }
 
-// Returns whether a point of the relief sees the light. The point lies a hundredth of the range away from the
-// relief.
+// Returns whether a point of the relief is visible from the light. The relief blocks the light only where it
+// is above the ray by more than a hundredth of the height range.
 bool is_lit(const PbrTile& tile, HeightRange range, Vec3 point, Vec3 light) {
   const float depth = range.high - point.z;
   const int steps = steps_of(heights_of(tile), light, depth);
@@ -41,7 +41,7 @@ bool is_lit(const PbrTile& tile, HeightRange range, Vec3 point, Vec3 light) {
   return true;
 }
 
-// What the maps hold at a point.
+// The values of the maps at a point.
 struct Shading {
   Vec3 diffuse, normal;
   float gloss_width = 1;
@@ -59,12 +59,12 @@ Vec3 radiance_of(const Shading& s, Vec3 view, Vec3 light) {
          microfacet_reflection({s.diffuse, reflectance, s.gloss_width}, s.normal, view, light);
 }
 
-// Values of a raw material at any point of its plane.
+// Returns an interpolated value of a raw material at any point of its plane.
 float raw_at(const RawMaterial& raw, const Taps& taps, std::size_t row, std::size_t view) {
   return mean_of(taps, &raw.btf[(row * raw.views.size() + view) * raw.texels()]);
 }
 
-// A view and light of a texel, and the radiance seen.
+// The radiance of a texel for one view and one light.
 struct Observation {
   Vec3 view, light, value;
 };
@@ -93,8 +93,8 @@ std::vector<Observation> observe(const RawMaterial& raw, const PbrTile& tile, He
   return found;
 }
 
-// Takes slopes and gloss width. Finds the best diffuse colour, which is linear, and returns the remaining
-// error.
+// Finds the best diffuse colour for the slopes and gloss width in `s`, and returns the remaining error. The
+// problem is linear in the colour.
 double best_diffuse(const std::vector<Observation>& seen, Shading& s) {
   double signal[3] = {}, square = 0, error = 0;
   std::vector<float> rest(3 * seen.size()), base(seen.size());
@@ -120,7 +120,7 @@ double best_diffuse(const std::vector<Observation>& seen, Shading& s) {
   return error;
 }
 
-// Slopes and the logarithm of the gloss width.
+// The two slopes and the logarithm of the gloss width.
 using Unknowns = Eigen::Vector3d;
 
 Shading shading_of(const Unknowns& u) {
@@ -130,7 +130,7 @@ Shading shading_of(const Unknowns& u) {
   return s;
 }
 
-// Searches along the axes. Steps shrink when none of them helps.
+// Searches along the axes. If no step lowers the error, the steps are made smaller.
 Unknowns fit_texel(const std::vector<Observation>& seen, Unknowns u) {
   Shading s = shading_of(u);
   double best = best_diffuse(seen, s);

@@ -25,7 +25,7 @@ ChartLine line_of(const Sweep::Series& s, std::string label, bool dashed, const 
 }
 
 constexpr double width = 640, height = 400, left = 70, right = 150, top = 40, bottom = 50;
-// Distinguishable with any colour vision (Okabe and Ito 2008).
+// People with any colour vision can distinguish these colours (Okabe and Ito 2008).
 constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9"};
 
 std::string format(const char* pattern, auto... values) {
@@ -52,7 +52,7 @@ struct Axis {
   double at(double value) const { return (value - low) / (high - low); }
 };
 
-// Round steps of 1, 2 or 5 times a power of ten, about `count` of them.
+// Returns an axis with about `count` steps. A step is 1, 2 or 5 times a power of ten.
 Axis round_axis(double low, double high, int count) {
   if (!(high > low)) high = low + 1;
   const double raw = (high - low) / count, power = std::pow(10, std::floor(std::log10(raw)));

@@ -1,5 +1,5 @@
-// Measures errors over the total view rank, like the paper's Figure 5. Makes rows and line charts (SVG) for
-// the documents.
+// Measures errors as a function of the total view rank, as in the paper's Figure 5. Makes rows and line
+// charts (SVG) for the documents.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ struct ChartLine {
   std::string label;
   std::vector<std::pair<double, double>> points;  // x, y
   bool dashed = false;
-  int colour = -1;  // lines with the same number share a colour; -1: the line's place
+  int colour = -1;  // index of the colour; -1: the index of the line
 };
 
 struct Chart {
@@ -26,7 +26,8 @@ struct Chart {
   std::vector<ChartLine> lines;
 };
 
-// The chart is readable on light and dark pages. A chart without points is an empty frame.
+// Returns the chart as SVG that is readable on light and dark pages. If there are no points, the chart is an
+// empty frame.
 std::string chart_svg(const Chart& chart);
 
 struct Sweep {
@@ -35,24 +36,25 @@ struct Sweep {
     bake::material::Method method;
     std::uint32_t mixture;
     std::vector<bake::material::MethodRow>
-        rows;  // one for each rank; fewer if clusters are fewer than the mixture
+        rows;  // one per rank; ranks with fewer clusters than the mixture needs are left out
     std::vector<std::uint32_t> ranks;
   };
   std::vector<Series> series;  // N-SVD, CTA, K-CTA with K = 2, 3, 4
 };
 
-// Ranks must be multiples of the cluster rank. Throws Failure(INVALID_ARGUMENT) otherwise, or if one does not
-// fit.
+// Measures all series at the given ranks. The ranks must be multiples of the cluster rank. Throws
+// Failure(INVALID_ARGUMENT) otherwise, or if a rank is too large.
 Sweep measure_sweep(const bake::material::RawMaterial& raw,
                     const bake::material::CompressionSettings& settings, std::span<const std::uint32_t> ranks,
                     const measure::MethodProgress& progress);
 
-// Draws S/E, error texels of distances, and both forms of the VOTF by K-CTA with K = 3 and N-SVD.
+// Returns the charts of S/E, of the error texels of distances, and of both VOTF forms by K-CTA with K = 3 and
+// N-SVD.
 std::vector<Chart> sweep_charts(const Sweep& sweep, const std::string& material);
 nlohmann::ordered_json sweep_rows(const Sweep& sweep, const std::string& material);
 
-// Returns the first rank from which N-SVD with distances has no more error texels than with binary masks; 0:
-// none.
+// Returns the smallest rank from which N-SVD with distances has at most as many error texels as with binary
+// masks. Returns 0 if there is none.
 std::uint32_t crossing_rank(const Sweep::Series& series);
 
 }  // namespace nook::lab

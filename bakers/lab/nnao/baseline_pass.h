@@ -78,7 +78,7 @@ class BaselinePass {
   // denoiser of the method's tuning runs too.
   GLuint draw(const BaselineMethod& method, const measure::GpuView& view, const measure::AoRequest& request,
               bool denoised);
-  // The bent normals of XeGTAO before its denoiser, in view space, with packed edges.
+  // Bent normals that XeGTAO computes before its denoiser, in view space, with packed edges.
   struct BentImage {
     std::vector<Vec3> bent_normal;  // zero for pixels without a surface
     std::vector<float> edges;

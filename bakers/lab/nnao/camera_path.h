@@ -12,8 +12,8 @@ namespace nook::lab {
 
 struct PathSettings {
   std::size_t frames = 0;  // includes the view itself; 0 makes no path
-  // Sideways motion of surfaces at the median depth, in pixels per frame. The default is not a whole number,
-  // so that every frame is resampled.
+  // How far surfaces at the median depth move sideways, in pixels per frame. The default is not a whole
+  // number, so that every frame is resampled.
   float step_px = 2.7f;
   // Ratio of forward to sideways motion of the camera. Forward motion makes sure that rows are resampled as
   // well.

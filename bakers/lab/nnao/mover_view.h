@@ -49,8 +49,8 @@ inline constexpr std::size_t recent_frames = 3;
 
 struct MoverView {
   MeasuredView measured;  // the last frame with its reference; the earlier frames are its path
-  // For each frame and pixel, the motion of its surface since the previous frame: pixels to the right, and
-  // pixels up. Both values are 0 in the first frame and for the sky.
+  // For each frame and pixel, how far its surface has moved since the previous frame: pixels to the right,
+  // and pixels up. Both values are 0 in the first frame and for the sky.
   std::vector<std::vector<float>> motion;
   std::vector<MoverPart> part;  // for each pixel of the last frame
 };

@@ -7,7 +7,7 @@
 
 namespace nook::lab {
 
-// Applications and engines ship n8ao, s4ao, vtk, qgis and filament.
+// The baselines n8ao, s4ao, vtk, qgis and filament are used in applications and engines.
 enum class Baseline { ssao, ssao_plus, hbao, n8ao, s4ao, vtk, qgis, filament, gtao, bitmask, xegtao };
 inline constexpr Baseline all_baselines[] = {
     Baseline::ssao, Baseline::ssao_plus, Baseline::hbao, Baseline::n8ao,    Baseline::s4ao,  Baseline::vtk,
@@ -18,7 +18,7 @@ const char* baseline_shader(Baseline baseline);  // in shaders/
 
 // What a tap outside the screen reads. `nothing`: the tap finds no surface. `pixel`: the tap moves to the
 // nearest pixel on the screen. `depth`: the tap stays in place and uses the depth of that pixel, like a
-// clamping sampler. The values are those of the shader macro NOOK_BORDER.
+// clamping sampler. The shader macro NOOK_BORDER has the same values.
 enum class Border { nothing, pixel, depth };
 inline constexpr Border all_borders[] = {Border::nothing, Border::pixel, Border::depth};
 const char* border_name(Border border);

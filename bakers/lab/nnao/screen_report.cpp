@@ -18,7 +18,7 @@ bool same_method(const Json& a, const Json& b) {
   return a["method"] == b["method"] && a["taps"] == b["taps"] && a["blurred"] == b["blurred"];
 }
 
-// Formats a value with two decimals and a short exponent, such as 7.97e-3.
+// Returns a value with two decimals and a short exponent, such as 7.97e-3.
 std::string short_power(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2e", value);

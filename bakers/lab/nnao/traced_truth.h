@@ -1,5 +1,5 @@
-// Traces the references of a view: AO for every pixel, and bent normals and specular occlusion for some
-// pixels.
+// Traces the references of a view. Every pixel has AO, and some pixels have bent normals and specular
+// occlusion.
 #pragma once
 
 #include <array>

@@ -50,7 +50,7 @@ struct TunedBaseline {
 };
 
 // Tunes each method. The search starts from first_place, and from the results of the same baseline with other
-// numbers of taps. It descends on the grids with shrinking strides, first on a third of the views and then on
+// numbers of taps. It moves along the grids with shrinking strides, first on a third of the views and then on
 // all views. It also tries the borders and sectors, and tunes radius and contrast for each denoiser. Existing
 // tunings of the methods are ignored. `progress` counts methods. If it returns false, the function throws
 // Failure(CANCELLED).

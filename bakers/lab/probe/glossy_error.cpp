@@ -25,8 +25,7 @@ using measure::visible_reflections;
 using probe::SpecularForm;
 using probe::Surface;
 
-constexpr int steps = 64;  // steps of visible normals per axis; sums differ by less than 0.2 % from twice as
-                           // many
+constexpr int steps = 64;  // visible normals per axis; with twice as many, sums change by less than 0.2 %
 
 struct Kind {
   const char* name;
@@ -43,7 +42,8 @@ float random_alpha(bake::Random& random) {
   return roughness * roughness;
 }
 
-// Normals are uniform over the sphere, and views over the relevant part of their hemisphere.
+// Returns a random surface of a kind. Normals are uniform over the sphere. Views are uniform over the part of
+// the hemisphere that the kind allows.
 Surface random_surface(const Kind& kind, bake::Random& random) {
   Surface s;
   const float z = 2 * random.unit() - 1, turn = 2 * std::numbers::pi_v<float> * random.unit();
@@ -61,7 +61,7 @@ Surface random_surface(const Kind& kind, bake::Random& random) {
   return s;
 }
 
-// The radiance of a surface under both lights.
+// The reference: the radiance of a surface under both lights.
 struct Truth {
   Vec3 of_lobes, of_map;
 };
@@ -77,7 +77,7 @@ Truth truth_of(const Surface& s, const Light& lobes, const Light& map) {
   return truth;
 }
 
-// Returns the root mean square over channels.
+// Returns the root mean square of the difference over the channels.
 double apart(Vec3 a, Vec3 b) {
   const Vec3 d = a - b;
   return std::sqrt(double(dot(d, d)) / 3);
@@ -98,7 +98,8 @@ Json row_of(std::vector<double>& of_lobes, const std::vector<double>& of_map, do
   return {{"rms", rms(of_lobes)}, {"percentile_95", at(0.95)}, {"worst", at(1)}, {"map_rms", rms(of_map)}};
 }
 
-// A form of glossy light. It returns the reflection of a surface from the lobes' light, and from the map's.
+// A representation of glossy light. Its functions return the reflection of a surface in the light of the
+// lobes and in the light of the map.
 struct Form {
   std::string name;
   std::size_t bytes;

@@ -1,5 +1,5 @@
-// Compares the glossy reflection of a map's probe with quadrature. Random GGX surfaces reflect the probe's
-// own lobes and the map, beside prefiltered cube maps of both.
+// Compares the glossy reflection of a probe with quadrature. The probe is fitted to a map. Random GGX
+// surfaces reflect the probe's lobes and the map itself. Prefiltered cube maps of both are compared as well.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,16 @@ namespace nook::lab {
 
 struct GlossySettings {
   std::uint32_t lobes = 12;
-  std::uint32_t surfaces = 512;  // random surfaces of each kind
+  std::uint32_t surfaces = 512;  // number of random surfaces of each kind
   std::uint64_t seed = 1;
 };
 
-// Returns a row for each kind of surface and each form. rms, percentile_95 and worst are over surfaces: the
-// root mean square over channels of the difference in radiance, over the mean radiance of the map. Truth is
-// what the surface reflects of the lobes. For map_rms, it is what the surface reflects of the map, which is
-// reduced to 128 columns. Kinds: one width, roughness 0.1 to 1, reflectance 1 and 0.04; two widths, both in
-// that range and up to 1 : 36, at grazing views.
+// Returns a row for each kind of surface and each form. The error of a surface is the root mean square over
+// channels of the difference in radiance, divided by the mean radiance of the map. `rms`, `percentile_95` and
+// `worst` are statistics of this error over the surfaces. Their reference is the reflection of the lobes. The
+// reference of `map_rms` is the reflection of the map, reduced to 128 columns. There are two kinds of
+// surfaces. The first has one width, roughness 0.1 to 1, and reflectance 1 or 0.04. The second has two widths
+// in the same range, with ratios up to 1 : 36, and is seen at grazing angles.
 nlohmann::ordered_json glossy_rows(const bake::Environment& map, const std::string& map_name,
                                    const GlossySettings& settings, const bake::Progress& progress);
 

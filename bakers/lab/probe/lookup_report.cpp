@@ -49,13 +49,13 @@ Baked bake_grid(const LookupScene& scene, const Grid& grid, const LookupSettings
   return {bake.probes(), bake.positions_ws(), bake.inside_count()};
 }
 
-// Places of one kind, with their truth.
+// Places of one kind, with their reference irradiance.
 struct Measured {
   Places places;
   TracedPlaces truth;
   std::vector<std::size_t> all;
   std::vector<std::vector<std::size_t>> of_room;
-  std::vector<std::size_t> near_walls;  // within a cell of a surface, horizontally
+  std::vector<std::size_t> near_walls;  // places whose horizontal distance to a surface is less than a cell
 };
 
 bool is_near_wall(const bake::LitScene& scene, const Grid& grid, Vec3 p) {
@@ -84,7 +84,7 @@ Measured measured(const LookupScene& scene, const Grid& grid, const LookupSettin
 
 struct Form {
   std::string name;
-  int fetches = 0;  // fetches of a shader; 0: there is none
+  int fetches = 0;  // texture fetches in a shader; 0: no shader exists
   Lookup at;
   std::uint32_t functions = 9;
 };
@@ -99,14 +99,14 @@ std::vector<Vec3> found_by(const Form& form, const Places& places, Vec3 spacing_
                        ? nook::probe::zonal_irradiance(coefficients, normal)
                        : nook::probe::irradiance(nook::probe::harmonic_basis(2), coefficients,
                                                  nook::probe::IrradianceForm::bands, normal);
-    // Shaders clamp the irradiance as well.
+    // Clamps negative irradiance, as the shaders do.
     found.push_back({std::max(e.x, 0.0f), std::max(e.y, 0.0f), std::max(e.z, 0.0f)});
   }
   return found;
 }
 
-// Returns the error relative to the mean of the places. With lit rooms, returns the root mean square over
-// rooms of each room's error relative to its own mean.
+// Returns the error relative to the mean of the places. If there are lit rooms, computes the error of each
+// room relative to the room's mean, and returns the root mean square over the rooms.
 double relative_error(const LookupScene& scene, const Measured& m, const std::vector<Vec3>& found,
                       const std::vector<std::size_t>& which) {
   if (!scene.rooms) {
@@ -126,8 +126,8 @@ double relative_error(const LookupScene& scene, const Measured& m, const std::ve
   return std::sqrt(square / rooms);
 }
 
-// Returns the irradiance that a lookup finds in the sealed room, on its surfaces and in its air, over the
-// light on surfaces of its bright neighbour.
+// Returns the irradiance that a lookup finds in the sealed room, on surfaces and in the air. It is divided by
+// the irradiance on the surfaces of the bright neighbour.
 double leak_of(const Rooms& rooms, const Measured& surfaces, const std::vector<Vec3>& on_surfaces,
                const Measured& open, const std::vector<Vec3>& in_open) {
   double sum = 0;

@@ -1,4 +1,4 @@
-// Compares ways to look up a grid of probes with path tracing, side by side.
+// Compares several ways to look up a grid of probes with path tracing.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,25 +14,26 @@ struct LookupScene {
   std::string name;
   const bake::LitScene& lit;
   const bake::TriangleSoup& soup;
-  const Rooms* rooms = nullptr;  // errors are relative to each room's mean, and the sealed room shows leaks
+  const Rooms* rooms = nullptr;  // if set, errors are relative to each room's mean, and leaks are measured
 };
 
 struct LookupSettings {
-  std::uint32_t points = 1024;         // on surfaces, and as many in the open
+  std::uint32_t points = 1024;         // points on surfaces, and as many points in the air
   std::uint32_t paths = 2048;          // per point
   std::uint32_t samples = 16384;       // per probe
-  std::uint32_t training_paths = 128;  // per place that walls and coefficients are fitted to
+  std::uint32_t training_paths = 128;  // paths per place that walls and coefficients are fitted to
   std::uint64_t seed = 1;
   bake::PathSettings path;
 };
 
-// The irradiance on the floor of the rooms, where pixels go with x to the right and z downwards.
+// Images of the irradiance on the floor of the rooms. x goes to the right, and z downwards.
 struct FloorPlan {
   int width = 0, height = 0;
   std::vector<Vec3> traced, trilinear, walls;
 };
 
-// Bakes the grid as harmonics of order 2 and returns one row for each way. plan: only for rooms.
+// Bakes the grid as spherical harmonics of order 2, and returns one row for each way of lookup. `plan` is
+// only for rooms.
 nlohmann::ordered_json lookup_rows(const LookupScene& scene, const probe::Grid& grid,
                                    const LookupSettings& settings, const measure::PlacesProgress& progress,
                                    FloorPlan* plan = nullptr);

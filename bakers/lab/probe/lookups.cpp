@@ -57,7 +57,7 @@ Lookup visibility_lookup(const Probes& probes, const bake::LitScene& scene,
 Moments::Moments(const bake::LitScene& scene, const std::vector<Vec3>& probe_positions_ws, Vec3 spacing_ws)
     : positions_ws_(probe_positions_ws), rays_(probe_positions_ws.size()), spacing_ws_(spacing_ws) {
   constexpr std::size_t ray_count = 1024;
-  const float most = 1.5f * length(spacing_ws);  // distances beyond a cell carry no information
+  const float most = 1.5f * length(spacing_ws);  // clamp; greater distances are not useful
   std::array<Vec3, ray_count> direction;
   nook::probe::vogel_sphere(direction);
   tbb::parallel_for(std::size_t(0), rays_.size(), [&](std::size_t p) {
@@ -72,7 +72,7 @@ float Moments::bound(std::size_t probe, Vec3 to_place, float distance) const {
   double weight = 0, mean = 0, square = 0;
   for (const Ray& ray : rays_[probe]) {
     const float cosine = dot(ray.direction, to_place);
-    if (cosine < 0.8f) continue;  // its power is below 1e-4
+    if (cosine < 0.8f) continue;  // the weight is below 1e-4
     const double w = std::pow(double(cosine), double(sharpness));
     weight += w;
     mean += w * double(ray.distance);

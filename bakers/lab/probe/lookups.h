@@ -1,5 +1,5 @@
-// Looks up a grid of probes near walls, in Nook's ways and in the ways of other engines. A way is a function
-// from a place to coefficients.
+// Ways to look up a grid of probes near walls: Nook's, and those that other engines use. Each way is a
+// function that maps a place to coefficients.
 #pragma once
 
 #include <functional>
@@ -14,20 +14,21 @@ namespace nook::lab {
 
 using Lookup = std::function<void(Vec3 position_ws, Vec3 normal, std::span<Vec3> coefficients)>;
 
-// The library's own lookup: trilinear, or by the walls of the probes if they have some. offset: further
-// spacings along the normal.
+// Returns the library's own lookup. It is trilinear, or uses the walls of the probes if they have walls.
+// `offset` moves the place along the normal, in units of the grid spacing.
 Lookup own_lookup(const probe::Probes& probes, float offset = 0);
 
-// Trilinear weights of the corners that the place sees, by rays; of all corners if it sees none.
+// Returns a trilinear lookup that uses only the corners that are visible from the place, tested with rays. If
+// no corner is visible, it uses all corners.
 Lookup visibility_lookup(const probe::Probes& probes, const bake::LitScene& scene,
                          const std::vector<Vec3>& probe_positions_ws, float origin_offset);
 
-// Moments of distance with Chebyshev's bound (Z. Majercik, J.-P. Guertin, D. Nowrouzezahrai, M. McGuire,
-// Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, 2019, section 4). It multiplies
-// trilinear weights by the wrapped cosine to the probe and by the cubed bound, and crushes small weights.
-// Like the paper, it takes means over directions by the power 50 of the cosine. It evaluates them in the
-// exact direction from the probe to the place, not at a texel of an octahedral map, so that no resolution
-// limits them.
+// Lookup with moments of distance and Chebyshev's bound (Z. Majercik, J.-P. Guertin, D. Nowrouzezahrai, M.
+// McGuire, Dynamic Diffuse Global Illumination with Ray-Traced Irradiance Fields, 2019, section 4). It
+// multiplies trilinear weights by the wrapped cosine towards the probe and by the cube of the bound. Small
+// weights are reduced further. As in the paper, the moments are averaged over directions, weighted by the
+// 50th power of the cosine. Unlike the paper, they are evaluated in the exact direction from the probe to the
+// place, and not at a texel of an octahedral map. Their accuracy is therefore not limited by a resolution.
 class Moments {
  public:
   Moments(const bake::LitScene& scene, const std::vector<Vec3>& probe_positions_ws, Vec3 spacing_ws);
@@ -45,8 +46,8 @@ class Moments {
   Vec3 spacing_ws_;
 };
 
-// Returns the probes as ZH3 in half floats, as a shader reads them: their coefficients are the five zonal
-// ones.
+// Returns the probes as ZH3 in half floats, as a shader reads them. Each probe has the five zonal
+// coefficients.
 probe::Probes zonal_in_half_floats(const probe::Probes& probes);
 
 }  // namespace nook::lab

@@ -19,7 +19,7 @@ using measure::visible_reflections;
 constexpr float least_roughness = 0.1f;
 constexpr int steps = 48;  // steps of visible normals per axis
 
-// Returns the direction of texel `place`, where faces are below each other.
+// Returns the direction of texel `place`. The faces are stored below each other.
 Vec3 texel_direction(std::size_t place, std::uint32_t size) {
   const auto at = std::uint32_t(place);
   return cube_cell_direction(at / (size * size), at % size, at / size % size, size);
@@ -51,7 +51,8 @@ PrefilteredCube::PrefilteredCube(std::uint32_t size, const std::function<Vec3(Ve
   }
 }
 
-// Blends the four texels around the direction. Their centres on its face may lie half a texel beyond it.
+// Interpolates the four texels around the direction. At a face edge, texel centres may lie half a texel
+// outside the face.
 Vec3 PrefilteredCube::at(const Level& level, Vec3 direction) {
   const Vec3 size{std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)};
   const float largest = std::max({size.x, size.y, size.z});
@@ -74,8 +75,8 @@ Vec3 PrefilteredCube::at(const Level& level, Vec3 direction) {
 Vec3 PrefilteredCube::reflected(const probe::Surface& surface) const {
   const float alpha = std::sqrt(surface.alpha_x * surface.alpha_y), roughness = std::sqrt(alpha);
   const Vec3 mirrored = surface.normal * (2 * dot(surface.normal, surface.view)) - surface.view;
-  // The dominant direction lies between the mirror direction and the normal, closer to the normal for rougher
-  // surfaces.
+  // The dominant direction lies between the mirror direction and the normal. The rougher the surface, the
+  // closer it is to the normal.
   const float towards = (1 - alpha) * (std::sqrt(1 - alpha) + alpha);
   const Vec3 direction = normalised(surface.normal * (1 - towards) + mirrored * towards);
   const float last = float(levels_.size() - 1);

@@ -1,7 +1,8 @@
-// A prefiltered cube map, the usual form of glossy light. For a few roughnesses, it stores what a mirror of
-// that roughness reflects if seen straight on (B. Karis, Real Shading in Unreal Engine 4, 2013). Other views
-// read it in the dominant direction of their reflection (S. Lagarde, C. de Rousiers, Moving Frostbite to PBR,
-// 2014), and the surface's albedo multiplies it.
+// A prefiltered cube map, which is the usual representation of glossy light. Each level is for one roughness.
+// It stores the light that a mirror of this roughness reflects towards a viewer straight above it (B. Karis,
+// Real Shading in Unreal Engine 4, 2013). For other views, the map is read in the dominant direction of the
+// reflection (S. Lagarde, C. de Rousiers, Moving Frostbite to PBR, 2014). The result is multiplied by the
+// surface's albedo.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +15,15 @@ namespace nook::lab {
 
 class PrefilteredCube {
  public:
-  // size is a power of 2. Faces have size x size texels for the roughness 0.1, and halve down to one texel
-  // for the roughness 1. light returns the radiance from a unit direction.
+  // `size` must be a power of 2. Faces have `size` x `size` texels for roughness 0.1. Each level has half the
+  // size of the one before, down to one texel for roughness 1. `light` returns the radiance from a unit
+  // direction.
   PrefilteredCube(std::uint32_t size, const std::function<Vec3(Vec3)>& light);
 
-  // Returns the mean of the light over the lobe of a surface with the mean width. Blends between levels and
-  // between texels, also over edges of faces.
+  // Returns the mean light over the lobe of a surface. If the surface has two widths, their mean is used.
+  // Interpolates between levels and between texels, also across face edges.
   Vec3 reflected(const probe::Surface& surface) const;
-  // Counts all levels in the format RGB9E5, 4 bytes for each texel.
+  // Returns the size of all levels in the format RGB9E5, with 4 bytes per texel.
   std::size_t bytes() const;
 
  private:

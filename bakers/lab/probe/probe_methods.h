@@ -1,4 +1,4 @@
-// All ways to fit a probe: Nook's, and others to compare with.
+// Lists all ways to fit a probe: Nook's, and others to compare with.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace nook::lab {
 
-// Returns all forms of Gaussian fits with `lobes` lobes; on the sphere also spherical harmonics and ambient
-// dice.
+// Returns all variants of Gaussian fits with `lobes` lobes. If the region is the whole sphere, also returns
+// spherical harmonics and ambient dice.
 std::vector<bake::probe::ProbeMethod> probe_methods(std::uint32_t lobes, const bake::probe::Region& region);
 
 }  // namespace nook::lab

@@ -12,7 +12,7 @@ using bake::LitTriangles;
 using bake::Surface;
 
 constexpr float height = 2.8f, thickness = 0.1f, shell = 0.2f, door_height = 2.1f;
-constexpr float into = 0.02f;  // metres by which walls reach into one another, so that no ray passes a seam
+constexpr float into = 0.02f;  // overlap of walls in metres, so that no ray passes through a seam
 constexpr float width = 12, depth = 9.5f;
 
 class Builder {
@@ -27,7 +27,7 @@ class Builder {
     return std::uint32_t(scene_.surface.size() - 1);
   }
 
-  // Adds a solid whose faces look outwards.
+  // Adds a box whose faces point outwards.
   void box(Vec3 low, Vec3 high, std::uint32_t surface) {
     solids_.push_back({low, high});
     const auto first = std::uint32_t(scene_.soup.position.size());
@@ -43,7 +43,8 @@ class Builder {
     }
   }
 
-  // Adds walls from floor to ceiling, along x or along z, with their lower side at z or x.
+  // Add a wall from floor to ceiling, along x or along z. Its side with the lower coordinate is at `z` or
+  // `x`.
   void along_x(float x0, float x1, float z, std::uint32_t surface, float from = 0) {
     box({x0 - into, from - (from > 0 ? 0 : into), z}, {x1 + into, height + into, z + thickness}, surface);
   }
@@ -88,7 +89,7 @@ void build_partitions(Builder& b) {
 void build_furniture(Builder& b) {
   const std::uint32_t wood = b.surface({0.5f, 0.35f, 0.2f}), cloth = b.surface({0.2f, 0.3f, 0.5f}),
                       white = b.surface({0.75f, 0.75f, 0.75f});
-  b.box({1.0f, 0.7f, 1.0f}, {2.4f, 0.75f, 1.9f}, wood);  // a table on a foot
+  b.box({1.0f, 0.7f, 1.0f}, {2.4f, 0.75f, 1.9f}, wood);  // top of a table
   b.box({1.6f, 0, 1.35f}, {1.8f, 0.7f, 1.55f}, wood);
   b.box({3.3f, 0, 0.2f}, {3.88f, 1.9f, 1.4f}, white);  // a cabinet at the wall of the sealed room
   b.box({4.5f, 0, 0.3f}, {5.6f, 0.9f, 0.9f}, wood);
@@ -127,7 +128,7 @@ Rooms make_rooms() {
   build_lamps(builder);
   rooms.soup = triangles.soup;
   rooms.origin_offset = bake::ray_origin_offset(triangles.soup.position);
-  // A little beyond the inner faces of the shell, which belong to the box.
+  // The box extends slightly beyond the inner faces of the shell, so that it includes these faces.
   rooms.low_ws = {-0.01f, -0.01f, -0.01f};
   rooms.high_ws = {width + 0.01f, height + 0.01f, depth + 0.01f};
   rooms.room = {{"bright", {{0, 0, 0}, {3.9f, height, 3.9f}}},
@@ -139,7 +140,7 @@ Rooms make_rooms() {
                 {"dimmest", {{8.6f, 0, 5.6f}, {width, height, depth}}}};
   rooms.sealed = 1;
   rooms.neighbour = 0;
-  // White light outside shows any leak of the shell.
+  // The light outside is white, so that any leak of the shell is visible.
   rooms.lit = std::make_unique<bake::LitScene>(std::move(triangles),
                                                bake::Environment(8, 4, std::vector<float>(8 * 4 * 3, 1)));
   return rooms;

@@ -1,4 +1,5 @@
-// Makes a building of closed rooms with different light and walls of 0.1 metres, where grids of probes leak.
+// Makes a building of closed rooms with different light. Its walls are 0.1 metres thick, so that grids of
+// probes leak light through them.
 #pragma once
 
 #include <memory>
@@ -18,22 +19,22 @@ struct AxisBox {
 
 struct Room {
   const char* name;
-  AxisBox air;  // between its walls
+  AxisBox air;  // the space between the room's walls
 };
 
-// Six rooms of 3.4 to 5 metres along a corridor. Lamps have different colours, and the brightest has 30 times
-// the light of the dimmest. Two rooms have an open door to the corridor, three are closed and lit, and one is
-// sealed without a lamp.
+// Six rooms of 3.4 to 5 metres along a corridor. The lamps have different colours, and the brightest lamp is
+// 30 times as bright as the dimmest. Two rooms have an open door to the corridor. Three rooms are closed and
+// lit. One room is sealed and does not have a lamp.
 struct Rooms {
   bake::TriangleSoup soup;
-  float origin_offset = 0;  // metres along the normal, for rays that leave a surface
-  Vec3 low_ws, high_ws;     // metres, the box of a grid
+  float origin_offset = 0;  // offset along the normal of rays that leave a surface, metres
+  Vec3 low_ws, high_ws;     // box of a probe grid, metres
   std::unique_ptr<bake::LitScene> lit;
   std::vector<Room> room;
   std::vector<AxisBox> solid;
-  bool in_solid(Vec3 position_ws) const;  // where solids meet, faces of one lie in another
-  std::size_t sealed = 0;                 // index of a room
-  std::size_t neighbour = 0;              // the bright room behind the sealed room's wall
+  bool in_solid(Vec3 position_ws) const;  // use it to skip faces that lie inside another solid
+  std::size_t sealed = 0;                 // index of the sealed room
+  std::size_t neighbour = 0;              // index of the bright room behind the sealed room's wall
 };
 Rooms make_rooms();
 

@@ -1,4 +1,5 @@
-// nook-lab evaluate grid: ways to look up a grid of probes, in a building of closed rooms or in a scene.
+// nook-lab evaluate grid: compares ways to look up a grid of probes, in a building of closed rooms or in a
+// scene.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -38,8 +39,8 @@ struct Options {
 
 constexpr std::array<std::uint32_t, 3> eight_a_room{6, 2, 5};
 
-// Draws traced, trilinear and with walls, one below the other. The scale is logarithmic, so that dim rooms
-// show.
+// Draws three floor plans below each other: path traced, trilinear lookup, and lookup with walls. The scale
+// is logarithmic, so that dim rooms are visible.
 bake::Picture picture_of(const FloorPlan& plan) {
   constexpr int enlarged = 4;
   constexpr float darkest = 0.01f, brightest = 10;  // irradiance

@@ -1,4 +1,4 @@
-// The subcommands of nook-lab, as in bakers/tool/commands.h.
+// Declares the subcommands of nook-lab, in the same way as bakers/tool/commands.h.
 #pragma once
 
 namespace nook::tool {

@@ -9,7 +9,8 @@
 
 namespace {
 
-// A linear pose model (Kontkanen & Aila 2006) and pose clusters (Kirk & Arikan 2007).
+// The character methods to compare with: a linear pose model (Kontkanen & Aila 2006) and pose clusters (Kirk
+// & Arikan 2007).
 constexpr nook::measure::CharacterPeer character_peers[] = {
     {"linear_pose", [](const nook::bake::SkinnedMesh& mesh, std::span<const nook::bake::Pose> training,
                        const nook::bake::AoTargets& targets,

@@ -1,4 +1,5 @@
-// nook-lab evaluate material: nook's command, with the methods that compressed materials compete with.
+// nook-lab evaluate material: the same command as in nook, plus the methods that compressed materials are
+// compared with.
 #include <algorithm>
 
 #include "bakers/lab/material/material_peers.h"
@@ -48,7 +49,8 @@ class Peers : public tool::MaterialPeers {
         .delimiter(',');
   }
 
-  // Methods by bytes or texels do not need the file's ranks.
+  // Rejects a neural material if a method needs the ranks of the file. Methods that are sized by bytes or
+  // texels do not need them.
   void check(const nook::material::Material& material) const override {
     const auto needs_ranks = [](const std::string& name) {
       return name != "pca" && name != "pbr" && name != "neural";

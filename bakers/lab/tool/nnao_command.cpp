@@ -1,5 +1,5 @@
-// nook-lab evaluate nnao: the screen-space pass and its baselines against ray tracing, on OpenGL without a
-// display; and the search that tunes the baselines.
+// nook-lab evaluate nnao: compares the screen-space pass and its baselines with ray tracing, on OpenGL
+// without a display. Also runs the search that tunes the baselines.
 #include <cstdio>
 #include <memory>
 

@@ -25,7 +25,7 @@ constexpr float smallest_radius = 1e-3f, largest_radius = 1e3f;  // AO radii, me
   throw ToolError(exit_bad_arguments, "evaluate nnao: " + text);
 }
 
-// The value of an option for one scene, or for all.
+// The value of an option that applies to one scene or to all scenes.
 struct Word {
   std::string scene, value;
 };
@@ -60,7 +60,7 @@ float parse_radius(const std::string& text) {
   return radius;
 }
 
-// Calls visit(scene, value) for every scene that the word is about.
+// Calls visit(scene, value) for every scene to which the word applies.
 template <class Visit>
 void apply(std::vector<SceneRequest>& scenes, const std::string& option, const std::string& text,
            const Visit& visit) {
@@ -93,7 +93,7 @@ std::vector<SceneRequest> parse_scenes(const SceneWords& words) {
   return scenes;
 }
 
-// Splits NAME:TAPS; returns 0 for anything else.
+// Splits NAME:TAPS and returns the taps. Returns 0 if the text does not have this form.
 int split_taps(const std::string& text, std::string& name) {
   const std::size_t colon = text.rfind(':');
   if (colon == std::string::npos || colon == 0) return 0;
@@ -101,7 +101,7 @@ int split_taps(const std::string& text, std::string& name) {
   return std::atoi(text.c_str() + colon + 1);
 }
 
-// Reads METHOD:TAPS,METHOD:TAPS.
+// Parses METHOD:TAPS,METHOD:TAPS.
 MethodRatio parse_ratio(const std::string& text) {
   const std::size_t comma = text.find(',');
   MethodRatio ratio;
@@ -115,7 +115,7 @@ MethodRatio parse_ratio(const std::string& text) {
   return ratio;
 }
 
-// A list of test views: scenes by source with their cameras, and the ratios to report.
+// A list of test views: the scenes of each source with their cameras, and the ratios to report.
 struct ViewsFile {
   std::string size;        // WxH; empty: not stated
   std::uint32_t rays = 0;  // 0: not stated
@@ -181,7 +181,7 @@ ViewsFile read_document(const Json& document, const std::filesystem::path& folde
   return views;
 }
 
-// folder: has each scene as NAME.glb.
+// Reads a list of test views. `folder` must contain each scene as NAME.glb.
 ViewsFile read_views_file(const std::filesystem::path& path, const std::filesystem::path& folder) {
   const std::vector<std::byte> bytes = read_any_file(path);
   const auto* const text = reinterpret_cast<const char*>(bytes.data());

@@ -1,5 +1,5 @@
-// What the protocols of `nook-lab evaluate nnao` share: scenes from the command line or from a list of test
-// views, their ray-traced views, and the end of all reports.
+// Code that the protocols of `nook-lab evaluate nnao` share: reading scenes from the command line or from a
+// list of test views, tracing their views, and the common end of all reports.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -18,20 +18,21 @@ struct Work {
   std::vector<MethodRatio> ratios;
 };
 
-// Takes size and rays from the list of --views if the command line has none. Throws ToolError.
+// If the command line does not state the image size or the number of rays, they are taken from the list of
+// --views. Throws ToolError.
 Work read_work(EvaluateNnaoOptions& options);
 
-// Traces the scene's views, or reads them from the folder of references; shows progress, and can be
-// interrupted. Throws ToolError that names the scene's file.
+// Traces the scene's views, or reads them from the folder of cached references. Shows progress, and can be
+// interrupted. Throws ToolError with the name of the scene's file.
 std::vector<MeasuredView> traced_views(const SceneRequest& scene, const EvaluateNnaoOptions& options);
 
 std::vector<MeasuredView> traced_views(const Work& work, const EvaluateNnaoOptions& options);
 
-// Adds the conditions of all rows of a report: rays per reference, OpenGL and the seed.
+// Adds the conditions that hold for all rows of a report: rays per reference, OpenGL and the seed.
 void add_conditions(nlohmann::ordered_json& report, const EvaluateNnaoOptions& options,
                     platform::Context& context);
 
-// Returns the largest radius on the screen that every method uses, in pixels.
+// Returns the maximum AO radius on the screen, in pixels. All methods use this limit.
 float max_radius_px(const EvaluateNnaoOptions& options);
 
 }  // namespace nook::lab

@@ -1,4 +1,4 @@
-// Measures means over frames, for a camera that moves through scenes and for walking characters.
+// Measures temporally accumulated AO, for a camera that moves through scenes and for walking characters.
 #include <filesystem>
 #include <optional>
 
@@ -30,7 +30,7 @@ Json evaluate_sequences(EvaluateNnaoOptions& options) {
   AoRequest request;
   request.max_radius_px = max_radius_px(options);
   std::vector<SequenceView> measured;
-  // Goes scene by scene, because the frames of all take a gigabyte.
+  // Scenes are processed one by one, because the frames of all scenes together take a gigabyte.
   for (const SceneRequest& scene : work.scenes) {
     const std::vector<MeasuredView> views = traced_views(scene, options);
     platform::ProgressBar bar(options.common.quiet);
@@ -50,7 +50,7 @@ Json evaluate_sequences(EvaluateNnaoOptions& options) {
 
 namespace {
 
-// The shots of a character, with a still and with a moving camera.
+// Measures the shots of a character, with a static camera and with a moving camera.
 class Shots {
  public:
   Shots(const std::filesystem::path& file, const EvaluateNnaoOptions& options)
@@ -74,7 +74,7 @@ class Shots {
     walk.frames = mover_frames;
     walk.heading = shot.heading;
     walk.speed_mps = options_.walk_speed;
-    // Each shot has another part of the clip.
+    // Each shot uses a different part of the clip.
     walk.phase = (float(index) + 0.5f) / float(count());
     MoverView view = trace_mover(
         mover_stage(), walking_body(character_, clip_, walk),

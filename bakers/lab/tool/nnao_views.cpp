@@ -1,4 +1,4 @@
-// Measures single frames of scenes: AO by every method, with pictures, or bent normals.
+// Measures single frames of scenes. It measures the AO of every method, with pictures, or bent normals.
 #include <algorithm>
 #include <optional>
 
@@ -19,7 +19,7 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// The columns of a picture after the scene and the truth.
+// The panels of a picture, after the scene and the reference.
 struct Shown {
   const char* suffix;
   std::vector<std::pair<std::string, int>> methods;
@@ -29,7 +29,7 @@ const Shown sheets[] = {
     {"_presets", {{half_name, 9}, {"nnao", 9}, {"nnao", 32}, {"gtao", 16}}},
     {"_shipped", {{"n8ao_shipped", 16}, {"s4ao_shipped", 12}, {"vtk_shipped", 32}, {"filament_shipped", 7}}}};
 
-// The names of the views' pictures: SCENE_CAMERA, or SCENE_NUMBER without the camera's name.
+// Returns the picture names of the views: SCENE_CAMERA, or SCENE_NUMBER if the camera does not have a name.
 std::vector<std::string> picture_names(std::span<const MeasuredView> views) {
   std::vector<std::string> names;
   std::size_t number = 0;
@@ -51,7 +51,7 @@ void write_pictures_of(const std::filesystem::path& folder, const std::string& p
     platform::write_image(folder / (names[v] + "_" + prefix + "_units.png"), unit_picture(network, views[v]));
 }
 
-// True where a sheet has a column for the method.
+// Returns whether the sheet has a panel for the method.
 bool is_shown(const std::string& method, int taps) {
   for (const Shown& sheet : sheets)
     for (const auto& [shown_method, shown_taps] : sheet.methods)
@@ -79,7 +79,7 @@ void write_network_pictures(const std::filesystem::path& folder, const Networks&
   if (!networks.file.empty()) write_pictures_of(folder, "other", networks.other, views, names);
 }
 
-// Returns the given network's name in tables; empty without one.
+// Returns the name of the other network in tables, or an empty string if none was given.
 std::string other_name(const Networks& networks) {
   if (networks.file.empty()) return "";
   return networks.other.form == nook::nnao::NetworkForm::paper ? "nnao_paper" : "nnao_file";
@@ -152,7 +152,7 @@ Json evaluate_views(EvaluateNnaoOptions& options) {
     throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: none is measured with these taps");
   if (!options.images.empty()) {
     write_sheets(options.images, views, comparison.images);
-    // A list has too many views for pictures of the networks.
+    // No network pictures are written for a list of views, because it has too many views.
     if (options.views.empty()) write_network_pictures(options.images, networks, views);
   }
 

@@ -1,5 +1,5 @@
-// nook-lab evaluate probe: nook's command, with every way to fit a probe, and with prefiltered cube maps
-// beside its glossy light.
+// nook-lab evaluate probe: the same command as in nook, but with every way to fit a probe. It also compares
+// the glossy light with prefiltered cube maps.
 #include "bakers/lab/probe/glossy_error.h"
 #include "bakers/lab/probe/probe_methods.h"
 #include "bakers/lab/tool/lab_commands.h"
