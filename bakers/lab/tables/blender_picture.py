@@ -1,8 +1,9 @@
-"""Draws docs/blender.png: the built-in character in Blender, baked and coloured by the add-on, in a frame of three clips.
+"""Draws docs/blender.png. It shows the built-in character in Blender in one frame of each of three clips,
+baked and coloured by the add-on.
 
   blender -b --factory-startup --python-exit-code 1 --python bakers/lab/tables/blender_picture.py -- CHARACTER.glb TOOL LIBRARY PICTURE.png
 
-`samples/run.sh` writes the character. The colours are the ambient occlusion alone, without light.
+`samples/run.sh` writes the character. The colours show only the ambient occlusion, without light.
 """
 import pathlib
 import sys
@@ -13,7 +14,7 @@ import numpy as np
 from mathutils import Vector
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-# The importer of Blender 3.4 needs a name that Debian's numpy 1.24 lacks.
+# The glTF importer of Blender 3.4 uses the name np.bool, which does not exist in Debian's numpy 1.24.
 np.bool = bool
 sys.path[:0] = [str(ROOT / "packaging/blender"), str(ROOT / "packaging/python")]
 import nook_ao  # noqa: E402
@@ -21,7 +22,7 @@ from nook_ao import preferences, shown  # noqa: E402
 
 CHARACTER, TOOL, LIBRARY, PICTURE = sys.argv[sys.argv.index("--") + 1:]
 WIDTH_PX, HEIGHT_PX, SAMPLES = 320, 440, 32
-# Clips of the built-in character, and how far into each.
+# Clips of the built-in character. The second value says where the frame is in the clip, 0 to 1.
 FRAMES = (("Sit", 0.5), ("Dance", 0.3), ("Punch", 0.4))
 
 
@@ -62,7 +63,7 @@ def main():
         scene.camera = camera
         scene.render.engine, scene.cycles.samples, scene.cycles.use_denoising = "CYCLES", SAMPLES, False
         scene.render.resolution_x, scene.render.resolution_y = WIDTH_PX, HEIGHT_PX
-        # Values of AO are shown as they are, without a curve for screens.
+        # Shows AO values unchanged, without a tone curve for the display.
         scene.view_settings.view_transform, scene.display_settings.display_device = "Raw", "sRGB"
         scene.world = bpy.data.worlds.new("grey")
         scene.world.color = (0.45, 0.55, 0.65)

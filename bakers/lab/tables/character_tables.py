@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Bakes three bodies by both splits of their clips, measures them beside the baselines, and prints the tables of
-docs/lab/character.md and docs/evidence.md.
+"""Bakes three bodies with both splits of their clips, measures them and the baselines, and prints the tables
+of docs/lab/character.md and docs/evidence.md.
 
     bakers/lab/tables/character_tables.py --out out/character_tables [--write]
 
-A step whose report is in the output folder already is not repeated: remove the folder to measure anew. On two cores
-without other work a bake takes 2 to 4 minutes and an evaluation with its baselines as long again.
+A step is skipped if its report already exists in the output folder. Remove the folder to measure again. On
+two idle cores, a bake takes 2 to 4 minutes, and an evaluation with baselines takes about as long.
 """
 import argparse
 import json
@@ -22,7 +22,7 @@ BASELINES = {"linear_pose": "linear pose", "pose_clusters": "pose clusters"}
 
 
 def run(arguments, report):
-    """Runs the tool unless its report is there, and returns the report."""
+    """Runs the tool unless the report already exists. Returns the report."""
     if not report.exists():
         print("+ " + " ".join(map(str, arguments)), file=sys.stderr, flush=True)
         subprocess.run([*map(str, arguments), "--report", str(report)], check=True, stdout=subprocess.DEVNULL)
@@ -30,7 +30,7 @@ def run(arguments, report):
 
 
 def measure(options, body, split):
-    """The report of the bake and the row of the evaluation."""
+    """Returns the report of the bake and the row of the evaluation."""
     source = options.assets / "characters" / f"{body}.glb"
     model = options.out / f"{body}.{split}.nook"
     baked = run([options.tool, "bake", "character", source, "-o", model, "--split", split, "--quiet"],
@@ -44,7 +44,7 @@ def measure(options, body, split):
 
 
 def number(value):
-    """Three digits, the exponent without zeros: 7.14e-3."""
+    """Returns a number as text with three digits and a short exponent, such as 7.14e-3."""
     mantissa, exponent = f"{value:.2e}".split("e")
     return f"{mantissa}e{int(exponent)}"
 

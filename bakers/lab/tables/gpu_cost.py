@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Counts the instructions of every shader with nook_gpu_cost, and prints the table of docs/gpu_cost.md and one of every shader.
+"""Counts the instructions of every shader with nook_gpu_cost. Prints the table of docs/gpu_cost.md, and a
+table of all shaders.
 
     bakers/lab/tables/gpu_cost.py [--write]     --write puts the table into the document and the counts into the file that the test reads
     bakers/lab/tables/gpu_cost.py --committed   prints the tables of the committed counts; counts nothing
@@ -30,7 +31,7 @@ def cycles(row):
 
 
 def by_name(rows, key):
-    """Rows of the first family, each with the rows of all families under the same name."""
+    """Returns the rows of the first family, each with the rows of the same name in all families."""
     found = {}
     for row in rows:
         found.setdefault(row[key], {})[row["family"]] = row
@@ -56,13 +57,13 @@ def shaders_table(report):
 
 
 def tables(report):
-    """The tables that the document has."""
+    """Returns the tables of the document."""
     return {"passes": passes_table(report)}
 
 
 def shown(report, write):
     show(DOCUMENT, SCRIPT, tables(report), write)
-    # The document leaves the table of every shader out; it is printed in any case.
+    # The table of all shaders is not in the document, so it is always printed.
     show(DOCUMENT, SCRIPT, {"shaders": shaders_table(report)}, False)
 
 

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Prints the tables of docs/gpu_time.md from two reports of nook_gpu_time, beside the modelled cycles of counts.json.
+"""Prints the tables of docs/gpu_time.md from two reports of nook_gpu_time and the modelled cycles of
+counts.json.
 
     nook_gpu_time --model MODEL.nook --material FILE... --report hd.json
     nook_gpu_time --width 3840 --height 2160 --report uhd.json
@@ -17,7 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCRIPT = pathlib.Path(__file__).name
 DOCUMENT = ROOT / "docs/gpu_time.md"
 REFERENCE = "hbao 64"
-# Names of the methods in the model's table, by their names in the timings.
+# Maps the names of methods in the timings to their names in the model's table.
 METHODS = {"ssao": "SSAO", "ssao+": "SSAO+", "hbao": "HBAO", "gtao": "GTAO", "gtao_bitmask": "GTAO with bitmask",
            "n8ao": "N8AO", "s4ao": "S4AO", "vtk": "VTK", "qgis": "QGIS", "filament": "Filament"}
 XEGTAO = {"8": "Medium", "18": "High", "54": "Ultra"}
@@ -26,7 +27,8 @@ DENOISED = {"edges_1": "denoised once", "edges_2": "denoised twice", "edges_3": 
 
 
 def modelled_name(name):
-    """The row of the model, or the beginning of its name; None: the model has none."""
+    """Returns the name of the model's row or the beginning of this name. Returns None if the model does not
+    have the row."""
     if name.startswith("NNAO"):
         return name
     method, rest = name.split(" ", 1)
@@ -37,7 +39,7 @@ def modelled_name(name):
 
 
 def shown_name(name):
-    """The name of a row in the document, as gpu_cost.md has it."""
+    """Returns the name of a row in the document. It is the same as in gpu_cost.md."""
     if name.startswith("NNAO"):
         return name
     method, taps = name.split(" ", 1)
@@ -48,7 +50,8 @@ def shown_name(name):
 
 
 def is_repeated(name):
-    """XeGTAO with a denoiser that is its tuned one has two rows."""
+    """Returns whether a row repeats another one. XeGTAO has two equal rows if its own denoiser is also the
+    tuned one."""
     taps, _, denoiser = name.removeprefix("xegtao ").partition(", ")
     return name.startswith("xegtao") and denoiser != "" and DENOISED[denoiser] == TUNED_XEGTAO[taps]
 
@@ -91,7 +94,7 @@ def other_table(small):
 
 
 def print_agreement(small, passes):
-    """Prints the distance of the measured ratios from the modelled ones; compute shaders, the reference itself and
+    """Prints how far the measured ratios are from the modelled ratios. Compute shaders, the reference row and
     repeated rows are left out."""
     ratios = {}
     for name, row in small.items():

@@ -1,15 +1,16 @@
-"""Markdown tables for the scripts that measure: made from rows, and put into documents behind a marker."""
+"""Makes Markdown tables from rows, and writes them into documents after a marker. The measuring scripts use
+it."""
 
 
 def table(columns, rows):
-    """A table as text, a line a row."""
+    """Returns a table as text, with one line per row."""
     def line(cells):
         return "| " + " | ".join(cells) + " |\n"
     return line(columns) + "|" + "---|" * len(columns) + "\n" + "".join(map(line, rows))
 
 
 def replace(path, marker, text):
-    """Puts a table in the place of the one behind the line `<!-- marker -->` of a document."""
+    """Replaces the table that follows the line `<!-- marker -->` in a document."""
     lines = path.read_text().splitlines(keepends=True)
     first = lines.index(f"<!-- {marker} -->\n") + 1
     last = first
@@ -19,7 +20,8 @@ def replace(path, marker, text):
 
 
 def show(document, script, tables, write):
-    """Prints tables, a dictionary by name, or writes them into the document behind `<!-- name, by script -->`."""
+    """Prints the tables, or writes them into the document. `tables` is a dictionary by name. In the document,
+    each table follows the line `<!-- name, by script -->`."""
     for name, text in tables.items():
         if write:
             replace(document, f"{name}, by bakers/lab/tables/{script}", text)

@@ -3,7 +3,7 @@
 
     bakers/lab/tables/material_footprints.py --out out/footprints [--write]
 
-A step whose report is in the output folder already is not repeated. Neural materials train for minutes.
+A step is skipped if its report already exists in the output folder. Training a neural material takes minutes.
 """
 import pathlib
 import subprocess
@@ -14,7 +14,7 @@ from material_tables import bench_of_arguments
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SMALL = ["--directions", "49", "--texels", "48"]
-# Name: the raw material's name, how it is made, and options of its compression.
+# For each name: the name of the raw material, the options that make it, and the options of the compression.
 MATERIALS = {"weave": ("weave", ["--meso", "weave", *SMALL], []),
              "weave, relief": ("weave", None, ["--relief", "estimated"]),
              "weave, neural": ("weave", None, ["--method", "neural", "--steps", "3000"]),
@@ -25,7 +25,7 @@ MATERIALS = {"weave": ("weave", ["--meso", "weave", *SMALL], []),
 
 
 def raw_of(bench, name, source):
-    """The raw material, made unless it is there."""
+    """Returns the raw material, and makes it if it does not exist."""
     raw = bench.path(f"{name}.raw")
     if pathlib.Path(raw).exists():
         return raw
@@ -41,7 +41,7 @@ def raw_of(bench, name, source):
 
 
 def grazing_row(bench, name):
-    """The row of the report of a material's grazing views."""
+    """Returns the row of the report on grazing views of a material."""
     raw_name, source, options = MATERIALS[name]
     raw, file = raw_of(bench, raw_name, source), bench.path(f"{name} grazing.nook")
     bench.run(f"{name} baked", "bake", "material", "--raw", raw, *options, "-o", file)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes a tile of chain mail, rings of two metals that lean against each other, for `nook bake material --meso`.
+"""Writes a tile of chain mail for `nook bake material --meso`. It has rings of two metals that lean against
+each other.
 
     bakers/lab/tables/material_rings.py rings.glb
 """
@@ -16,7 +17,7 @@ METALS = ((0.55, 0.32, 0.18, 1), (0.34, 0.36, 0.4, 1))
 
 
 def ring(column, row):
-    """Returns positions, normals and triangles of one ring; rows lean to either side."""
+    """Returns positions, normals and triangles of one ring. Rows of rings lean to alternating sides."""
     a, b = numpy.meshgrid(2 * numpy.pi * numpy.arange(AROUND) / AROUND, 2 * numpy.pi * numpy.arange(TUBE) / TUBE, indexing="ij")
     out = numpy.stack([numpy.cos(a), 0 * a, numpy.sin(a)], -1)
     normal = numpy.cos(b)[..., None] * out + numpy.sin(b)[..., None] * numpy.array([0, 1, 0])

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Rounds the parts of materials to 8 bits in several ways, apart and together, and prints what each costs in dB.
+"""Rounds the parts of materials to 8 bits in several ways, one part at a time and all together. Prints the
+loss of each way in dB.
 
     bakers/lab/tables/material_rounding.py RAW MATERIAL.nook [RAW MATERIAL.nook ...]
 
-The materials come from `nook bake material --bits 16`, and the raw ones from `--keep-raw`. The S/E is for the
-fitted views and lights, without view maps and light maps.
+Make the materials with `nook bake material --bits 16`, and the raw materials with `--keep-raw`. The S/E is
+measured at the fitted views and lights, without view maps and light maps.
 """
 import pathlib
 import struct
@@ -16,14 +17,14 @@ from markdown_table import table
 
 
 def sections(path):
-    """The sections of a .nook file by name."""
+    """Returns the sections of a .nook file, by name."""
     data = pathlib.Path(path).read_bytes()
     entries = [struct.unpack_from("<4sIQQ", data, 40 + 24 * i) for i in range(struct.unpack_from("<I", data, 32)[0])]
     return {name.decode(): data[offset:offset + size] for name, _, offset, size in entries}
 
 
 class Numbers:
-    """A reader of packed half floats, as sdk/src/material/packed_numbers.h describes them."""
+    """Reads packed half floats, in the format of sdk/src/material/packed_numbers.h."""
 
     def __init__(self, data, at):
         self.data, self.at = data, at
@@ -81,7 +82,8 @@ class Btf:
 
 
 def rounded(values, axes, power=1.0, steps=127):
-    """Rounds to `steps` on either side of 0 with one scale over axes; a power below 1 compands."""
+    """Rounds values to `steps` steps on each side of 0. All values along `axes` share one scale. A power
+    below 1 makes the steps finer near 0."""
     scale = numpy.abs(values).max(axis=axes, keepdims=True)
     scale = numpy.where(scale > 0, scale, 1)
     unit = values / scale
@@ -90,7 +92,7 @@ def rounded(values, axes, power=1.0, steps=127):
 
 
 def texture_scales(images, light):
-    """p_c[b] and r[a] of sdk/src/material/tables.cpp."""
+    """Returns the scales p_c[b] and r[a] of sdk/src/material/tables.cpp."""
     largest = numpy.abs(images).max(-1)
     r = largest.mean((0, 2))
     p = (largest / r[None, :, None]).max(1)
@@ -100,7 +102,7 @@ def texture_scales(images, light):
 
 
 def losses(btf):
-    """Name of a way to round, and the S/E that it costs."""
+    """Yields the name of each way to round, and the S/E that it loses."""
     images, whole = btf.images(), btf.error_db(btf.images())
     p, r = texture_scales(images, btf.light)
     scales = (r[None, :, None] * p[:, None, :])[..., None]

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes the maps of a tile of 36 rounded stones with joints between them, base colour and height, for `nook bake material --pbr`.
+"""Writes the base colour and height maps of a tile for `nook bake material --pbr`. The tile has 36 rounded
+stones with joints between them.
 
     bakers/lab/tables/material_stones.py FOLDER
 """
@@ -12,7 +13,7 @@ ACROSS, TEXELS = 6, 192
 
 
 def write(path, values):
-    """A portable pixmap."""
+    """Writes a portable pixmap."""
     path.write_bytes(b"P6\n%d %d\n255\n" % (TEXELS, TEXELS) + (numpy.clip(values, 0, 1) * 255 + 0.5).astype(numpy.uint8).tobytes())
 
 

@@ -3,8 +3,8 @@
 
     bakers/lab/tables/material_tables.py --out out/material_tables [--write]
 
-A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Raw materials of
-the full size take 0.5 GB of disk each and 3 GB of memory while they are baked.
+A step is skipped if its report already exists in the output folder. Remove the folder to measure again. A
+full-size raw material takes 0.5 GB of disk, and 3 GB of memory while it is baked.
 """
 import argparse
 import json
@@ -15,19 +15,20 @@ import sys
 from markdown_table import show, table
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-# Name: options of its bake.
+# For each name, the options of the bake.
 FULL = {"fiber": [], "roughhole": []}
 SMALL = {"weave": ["--directions", "49", "--texels", "48"],
          "small roughhole": ["--directions", "100", "--lights", "8", "--texels", "48"],
          "49 x 49 fiber": ["--directions", "49", "--texels", "48"],
          "49 x 49 roughhole": ["--directions", "49", "--texels", "48"]}
-# The tables compare methods by the paper's fits and half floats.
+# The tables compare methods with the paper's fits and with half floats.
 NO_REFITS = ["--votf-refits", "0"]
 PAPER = [*NO_REFITS, "--bits", "16"]
-# Materials of the tables of numbers, with ranks to compare with N-SVD.
+# Materials that the tables of number formats have, with the ranks for the comparison with N-SVD.
 NUMBERS = {"wood": ["--ranks", "12,20,24,24"], "49 x 49 fiber": [], "weave": [], "49 x 49 roughhole": []}
 SWEEP = [12, 20, 28, 36, 44, 60, 76]
-# The smallest ranks of `bake material`, for a raw material that is only a reference.
+# The smallest ranks that `bake material` allows. They are used if only the raw material is needed as a
+# reference.
 REST = ["--ranks", "4,8,8,8", "--votf-ranks", "8,8"]
 
 
@@ -40,7 +41,8 @@ class Bench:
         return str(self.out / name.replace(" ", "_"))
 
     def run(self, name, *arguments, tool=None):
-        """The report of a step of nook, or of another tool, made unless it is there."""
+        """Returns the report of a step, and runs the step if the report does not exist. `tool` is nook or
+        another tool."""
         tool = tool or self.tool
         report = pathlib.Path(self.path(name) + ".json")
         if not report.exists():
@@ -49,12 +51,12 @@ class Bench:
         return json.loads(report.read_text())
 
     def bake(self, material, options):
-        """Bakes, with the raw material kept."""
+        """Bakes a material and keeps the raw material."""
         return self.run(f"{material} bake", "bake", "material", "--meso", material.split()[-1], *options, *PAPER, "-o",
                         self.path(f"{material}.nook"), "--keep-raw", self.path(f"{material}.raw"))
 
     def compress(self, material, variant, options, common=PAPER):
-        """Compresses a kept raw material once more."""
+        """Compresses a kept raw material again."""
         return self.run(f"{material} {variant}", "bake", "material", "--raw", self.path(f"{material}.raw"),
                         *common, *options, "-o", self.path(f"{material} {variant}.nook"))
 
@@ -63,7 +65,7 @@ class Bench:
             subprocess.run([sys.executable, str(ROOT / "bakers/lab/tables/material_wood.py"), self.path("wood.raw")], check=True)
 
     def compare(self, name, *arguments):
-        """The report of nook-lab, which measures other methods too."""
+        """Returns the report of nook-lab, which also measures other methods."""
         return self.run(name, *arguments, tool=self.lab)
 
     def evaluate(self, material, variant, options):
@@ -91,7 +93,7 @@ def methods_table(reports):
 
 
 def unseen_table(reports, views, unseen_views):
-    """Error texels are counted per 10,000 texels."""
+    """Makes the table of unseen views. Error texels are per 10,000 texels."""
     def share(texels, of):
         return "-" if texels is None else f"{1e4 * texels / (of * 96 * 96):.0f}"
     return table(["material", "method", "K", "file, MiB", "S/E, dB: fitted views", "unseen views",
@@ -139,7 +141,7 @@ def seeding_table(report):
 
 
 def numbers_table(rows):
-    """A row for each material, method and number of bits."""
+    """Makes a table with one row for each material, method and number of bits."""
     return table(["material", "method", "bits", "file, KiB", "a byte each, KiB", "S/E, dB", "drawn", "GPU, bytes for each texel"],
                  [[material, r["method"].replace("file: ", ""), bits, f"{r['file_bytes'] / 1024:.0f}",
                    f"{r['bytes'] * 8 / int(bits) / 1024:.0f}", f"{r['se_db']:.2f}", f"{r['se_db_drawn']:.2f}",
@@ -158,8 +160,8 @@ def numbers_rows(bench):
                 yield material, bits, report["rows"][0]
 
 
-# Modes of `evaluate material`: the form of blocks, and light modes that stay whole. 1,024 are more than
-# any of these files has.
+# Modes of `evaluate material`: the block format, and the number of light modes that are not compressed. The
+# value 1,024 is more than any of these files has.
 BLOCKS = {"half floats": ("plain", 4), "signed bytes, light map of blocks": ("rgtc", 1024), "RGTC but for 8 light modes": ("rgtc", 8),
           "RGTC but for 4 light modes": ("rgtc", 4), "EAC but for 4 light modes": ("eac", 4), "RGTC": ("rgtc", 0)}
 
@@ -176,7 +178,8 @@ def blocks_table(bench):
 
 
 def jumps_table(bench):
-    """The largest jump and the 99th percentile of each method, with its view map and without it."""
+    """Makes the table of the largest jump and the 99th percentile of each method, with and without its view
+    map."""
     def pair(row, rest):
         return [f"{row[key + rest]:.3f}" for key in ("jump_largest", "jump_99")] if "jump_largest" + rest in row else ["-", "-"]
     rows = []
@@ -191,8 +194,8 @@ def jumps_table(bench):
 
 
 def between_rows(bench):
-    """Measures the file of a material and the maps fitted to it, in views and under lights that neither has seen. Also
-    measures K-CTA with more views at the same ranks, without and with a relief."""
+    """Measures a material file and the maps fitted to the same material, at views and lights that were not
+    used for either fit. Also measures K-CTA with more views at the same ranks, with and without a relief."""
     def evaluated(name, file, between):
         return bench.run(f"{file} between", "evaluate", "material", bench.path(f"{name}.raw"), bench.path(f"{file}.nook"),
                          "--unseen", between, "--jumps")["rows"][0]
@@ -224,8 +227,8 @@ def between_table(rows):
 
 
 def neural_rows(bench):
-    """Files of 8 bits beside all baselines, at the bytes of the whole file, in views, and but for wood lights, that were not
-    fitted."""
+    """Compares 8-bit files with all baselines at the size of the whole file. The views were not used for the
+    fit. The lights were not used either, except for wood."""
     bench.write_wood()
     for material, ranks in NUMBERS.items():
         if material.endswith("roughhole"):
@@ -254,7 +257,7 @@ def neural_table(rows):
 
 
 def cycles_table():
-    """Modelled cycles, as bakers/lab/tables/gpu_cost.py counts them."""
+    """Makes the table of modelled cycles, from the counts of bakers/lab/tables/gpu_cost.py."""
     counts = json.loads((ROOT / "tests/bakers/lab/gpu_cost/counts.json").read_text())["rows"]
     sums = {row["shader"]: row["alu_cycles"] + row["texture_cycles"] for row in counts if row["family"] == "navi21"}
     names = {"K-CTA, weave": "material, weave, K-CTA, K = 3", "neural, small": "neural material, small",
@@ -265,7 +268,7 @@ def cycles_table():
 
 
 def summary_table(reports):
-    """Signal to error of the methods, each with its file."""
+    """Makes the table of the signal-to-error ratio and the file size of each method."""
     def cell(rows, method, mixture):
         row = next(r for r in rows if r["method"] == method and r["k"] == mixture)
         return f"{row['se_db']:.2f} ({mib(row['file_bytes'])})"
@@ -276,7 +279,7 @@ def summary_table(reports):
 
 
 def bench_of_arguments(description):
-    """The bench of a script's arguments, and whether it writes into the documents."""
+    """Parses the arguments of a script. Returns the bench, and whether to write into the documents."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
     parser.add_argument("--lab", type=pathlib.Path, default=ROOT / "build/bakers/lab/tool/nook-lab")
@@ -313,7 +316,7 @@ def main():
             maps.append((material, side, report["rows"][0]))
         methods[material] = bench.evaluate(material, "peers", ["--unseen", unseen, "--images", bench.path("images")])
     page = ROOT / "docs/lab/materials.md"
-    # The page leaves these tables out; they are printed in any case.
+    # These tables are not on the page, so they are always printed.
     show(page, pathlib.Path(__file__).name,
          {"unseen views": unseen_table(methods, 100, 37), "view ranks": sweep_table(sweep), "first clusters": seeding_table(seeding)}, False)
     show(page, pathlib.Path(__file__).name,

@@ -3,11 +3,13 @@
 
     bakers/lab/tables/material_wood.py wood.raw [--texels 64] [--seed 1] [--views fitted|between]
 
-It has no geometry: each texel is fibres under a varnish, with its own colour. Light that enters leaves by a diffuse lobe and by the
-cone of the fibres, which tilt from place to place as in curly maple. Light that does not enter leaves by a glossy lobe around the
-varnish's uneven normal (S. Marschner and others: Measuring and Modeling the Appearance of Finished Wood, 2005, equations 1 to 4).
-The 81 directions are from the University of Bonn's measurements of 2003: tilts of 0 to 75 degrees in steps of 15, with 1, 6, 12,
-18, 20 and 24 azimuths. `between` has as many views halfway between those azimuths, for errors in views that were not fitted.
+The material does not have geometry. Each texel has its own colour and consists of fibres under a varnish.
+Light that enters the varnish leaves in a diffuse lobe and in the cone of the fibres. The tilt of the fibres
+varies from place to place, as in curly maple. Light that does not enter is reflected in a glossy lobe around
+the uneven normal of the varnish (S. Marschner and others: Measuring and Modeling the Appearance of Finished
+Wood, 2005, equations 1 to 4). The 81 directions are from the measurements of the University of Bonn in 2003:
+tilts of 0 to 75 degrees in steps of 15, with 1, 6, 12, 18, 20 and 24 azimuths. With `between`, the same
+number of views lies halfway between these azimuths. Use it to measure errors at views that were not fitted.
 """
 import argparse
 import pathlib
@@ -22,7 +24,8 @@ RINGS = ((0, 1), (15, 6), (30, 12), (45, 18), (60, 20), (75, 24))  # degrees of 
 
 
 def directions(shift):
-    """x, y, z of the measured directions, azimuths moved by a share of their distance."""
+    """Returns x, y, z of the measured directions. Azimuths are shifted by the share `shift` of their
+    spacing."""
     found = []
     for tilt, count in RINGS:
         for i in range(count):
@@ -33,7 +36,8 @@ def directions(shift):
 
 
 def noise(random, side, wide, high, octaves):
-    """Periodic noise of mean 0 and deviation 1 with features of 1/wide of a tile along x and 1/high along y."""
+    """Returns periodic noise with mean 0 and standard deviation 1. Features have the size 1/wide of a tile
+    along x and 1/high along y."""
     u, v = numpy.meshgrid(numpy.fft.fftfreq(side) * side, numpy.fft.fftfreq(side) * side, indexing="ij")
     total = numpy.zeros((side, side))
     for octave in range(octaves):
@@ -46,7 +50,8 @@ def noise(random, side, wide, high, octaves):
 
 
 def maps(side, seed):
-    """Maps of a tile, x along the fibres: colour, tilt and turn of the fibres, slopes of the varnish."""
+    """Returns the maps of a tile: colour, tilt and rotation of the fibres, and slopes of the varnish. x is
+    along the fibres."""
     random = numpy.random.default_rng(seed)
     figure = noise(random, side, 3, 2, 2)
     grain = noise(random, side, 1, 12, 3)
@@ -62,14 +67,14 @@ def maps(side, seed):
 
 
 def refracted(d):
-    """A direction inside the varnish, whose index of refraction is 1.5."""
+    """Returns the refracted direction inside the varnish. The index of refraction is 1.5."""
     inside = d / 1.5
     inside[2] = numpy.sqrt(1 - inside[0] ** 2 - inside[1] ** 2)
     return inside
 
 
 def entering(z):
-    """The share of light that enters: 1 less Schlick's approximation of Fresnel's."""
+    """Returns the share of light that enters: 1 minus Schlick's approximation of the Fresnel reflection."""
     return 1 - (0.04 + 0.96 * (1 - z) ** 5)
 
 

@@ -1,16 +1,16 @@
 #!/usr/bin/env python3
-"""materials_visibility_picture.py RAW.png BINARY.png DISTANCES.png: writes docs/materials_visibility.png from pictures of
-samples/material, 960 x 540 pixels each: the vase of each side by side, twice as large, and below it one of its holes, six times
-as large.
+"""materials_visibility_picture.py RAW.png BINARY.png DISTANCES.png: writes docs/materials_visibility.png from
+two pictures of samples/material with 960 x 540 pixels each. The vases of both pictures are side by side,
+enlarged twice. Below each vase is one of its holes, enlarged six times.
 
-The commands that make the pictures stand in docs/lab/materials.md.
+docs/lab/materials.md has the commands that make the pictures.
 """
 import pathlib
 import sys
 
 from with_and_without import DOCS, read, write
 
-# Left, top, width and height of the parts, and how often a pixel is repeated along each side.
+# For each part: left, top, width and height, and the enlargement factor.
 PARTS = (((630, 120, 180, 275), 2), ((693, 203, 60, 50), 6))
 GAP = b"\xff" * (3 * 6)
 

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Fetches the scenes of docs/nnao_views.json into a folder, as .glb files for `nook-lab evaluate nnao --views`.
 
-Each source names a git repository and a commit. Its files come from that repository (a partial clone, so that only these
-files travel), or from a folder of git directories given by --mirrors; files without a repository come from --assets. Every
-file is checked against its SHA-256 before it is used. A scene becomes one mesh in metres, y up, without materials: the
-measurement reads geometry alone. glTF is read here; other forms go through `assimp export` (Debian: assimp-utils).
+Each source names a git repository and a commit. Its files are read from a partial clone, so that only these
+files are downloaded, or from the folder of git directories that you give with --mirrors. Files without a
+repository are read from --assets. The SHA-256 of every file is checked before use. Each scene becomes one
+mesh in metres, with y up. It does not have materials, because the measurement reads only geometry. This
+script reads glTF itself. It converts other formats with `assimp export` (Debian: assimp-utils).
 """
 import argparse
 import array
@@ -23,16 +24,16 @@ import urllib.parse
 VIEWS = pathlib.Path(__file__).resolve().parents[3] / "docs/nnao_views.json"
 IDENTITY = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)  # column-major, as in glTF
 COMPONENTS = {"SCALAR": 1, "VEC3": 3, "VEC4": 4, "MAT4": 16}
-# Component types of glTF: code of struct, and the number that a normalised integer is divided by.
+# Component types of glTF: the format code of `struct`, and the divisor of normalised integers.
 TYPES = {5120: ("b", 127), 5121: ("B", 255), 5122: ("h", 32767), 5123: ("H", 65535), 5125: ("I", 1), 5126: ("f", 1)}
 
 
 class Unusable(Exception):
-    """A file that is absent, differs from its checksum or cannot be read; the text names it."""
+    """Raised if a file is missing, differs from its checksum or cannot be read. The text names the file."""
 
 
 class Gltf:
-    """Reads the geometry of a glTF 2.0 file: its default scene's triangles in world space."""
+    """Reads the geometry of a glTF 2.0 file: the triangles of the default scene, in world space."""
 
     def __init__(self, path):
         data = path.read_bytes()
@@ -58,7 +59,7 @@ class Gltf:
         return (self.folder / urllib.parse.unquote(uri)).read_bytes()
 
     def values(self, index):
-        """Reads the elements of an accessor: tuples, or numbers of a scalar one."""
+        """Reads the elements of an accessor. They are tuples, or numbers if the accessor is scalar."""
         accessor = self.json["accessors"][index]
         if "sparse" in accessor:
             raise Unusable("sparse accessors are not read")
@@ -75,7 +76,7 @@ class Gltf:
         return [v[0] for v in values] if width == 1 else values
 
     def triangles(self):
-        """Positions in world space, and indices of triangles."""
+        """Returns positions in world space, and indices of triangles."""
         nodes = self.json["nodes"]
         world, shown = {}, []
         roots = self.json["scenes"][self.json.get("scene", 0)]["nodes"]
@@ -145,7 +146,7 @@ def local_matrix(node):
 
 
 def write_glb(path, positions, indices):
-    """One mesh; unused vertices stay, so that the bytes depend on the source alone."""
+    """Writes one mesh. Unused vertices are kept, so that the bytes depend only on the source."""
     places = array.array("f", [c for p in positions for c in p])
     corners = array.array("I", indices)
     if sys.byteorder == "big":
@@ -175,7 +176,7 @@ def write_glb(path, positions, indices):
 
 
 def as_gltf(path):
-    """The path of a glTF file with the same geometry."""
+    """Returns the path of a glTF file with the same geometry. Converts the file if necessary."""
     if path.suffix in (".gltf", ".glb"):
         return path
     if not shutil.which("assimp"):
@@ -188,7 +189,7 @@ def as_gltf(path):
 
 
 def convert(scene, source_file, target):
-    """Metres, y up. Returns the bounds and the number of triangles."""
+    """Converts a scene to metres, with y up. Returns the bounds and the number of triangles."""
     positions, indices = Gltf(as_gltf(source_file)).triangles()
     scale = scene.get("metres_per_unit", 1)
     turn = {"y": lambda p: p, "z": lambda p: (p[0], p[2], -p[1])}[scene.get("up", "y")]
@@ -205,7 +206,8 @@ def git(folder, *words):
 
 
 def mirror_of(mirrors, repository):
-    """The git directory of a repository in a folder of such: owner+name or owner/name, with or without a tree."""
+    """Returns the git directory of a repository in the folder of mirrors. It is named owner+name or
+    owner/name, and may be bare or have a work tree."""
     owner, name = repository.removesuffix(".git").split("/")[-2:]
     for base in (mirrors / f"{owner}+{name}", mirrors / owner / name):
         for tail in ("repo/.git", "repo", ".git", ""):
@@ -215,7 +217,7 @@ def mirror_of(mirrors, repository):
 
 
 def partial_clone(repository, commit, folder):
-    """A git directory that holds the commit and loads its files one by one."""
+    """Makes a git directory that has the commit and downloads files one by one, on demand."""
     subprocess.run(["git", "init", "-q", "--bare", str(folder)], check=True)
     git(folder, "remote", "add", "origin", repository)
     git(folder, "config", "remote.origin.promisor", "true")
@@ -225,7 +227,7 @@ def partial_clone(repository, commit, folder):
 
 
 class Files:
-    """The bytes of a source's files, checked."""
+    """Reads the files of a source and checks them."""
 
     def __init__(self, source, options, scratch):
         self.source, self.options, self.scratch = source, options, scratch

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
-"""report_picture.py PAGE.html: writes docs/report.png from the pictures of a character's page: four of its eight sides in a
-row, and below them its first pose, ray traced, from the model, and the difference.
+"""report_picture.py PAGE.html: writes docs/report.png from the pictures of a character's page. The first row
+has four of the eight side views. The second row has the first pose: ray traced, from the model, and the
+difference.
 
     nook report ual_mannequin_CC0.nook ual_mannequin_CC0.glb -o page.html && bakers/lab/tables/report_picture.py page.html
 """
@@ -17,7 +18,7 @@ SIDES, POSE = (0, 2, 4, 6), 8
 
 
 def pictures(page):
-    """Width and lines of each picture of the page."""
+    """Returns the width and the lines of each picture on the page."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder) / "picture.png"
         for text in re.findall(r"data:image/png;base64,([A-Za-z0-9+/=]+)", page):

@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Bakes radiance transfer of the tests' shapes, measures it under the maps of the assets, and prints the tables of
-docs/lab/transfer.md.
+"""Bakes radiance transfer for the shapes of the tests, measures it under the light maps of the assets, and
+prints the tables of docs/lab/transfer.md.
 
     bakers/lab/tables/transfer_tables.py --out out/transfer_tables [--material FIBER.nook --raw FIBER.raw] [--write]
 
---only NAME,... makes some of the tables: vectors, pictures, raw, lights, times, reflections, holes, paper. A step whose report is in the output folder already is not repeated: remove the folder to measure anew. Without --material
-the fiber is baked first, which takes two minutes. Maps are in NOOK_ASSETS, or in ../shared/assets.
+--only NAME,... makes only these tables: vectors, pictures, raw, lights, times, reflections, holes, paper. A
+step is skipped if its report already exists in the output folder. Remove the folder to measure again. Without
+--material, the script first bakes the fiber material, which takes two minutes. Light maps are read from
+NOOK_ASSETS, or from ../shared/assets.
 """
 import argparse
 import json
@@ -18,7 +20,7 @@ from markdown_table import show, table
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 MAPS = ["potsdamer_platz", "st_fagans_interior", "venice_sunset", "studio_small_03", "rooitou_park"]
-# Shape and number of lobes.
+# Shapes and numbers of lobes.
 CASES = [("knot", 162), ("knot", 642), ("knot", 1284), ("cloth", 642)]
 # Shapes whose pictures are compared with the raw material.
 RAW_SHAPES = ["knot", "mannequin", "cloth"]
@@ -35,7 +37,7 @@ class Bench:
         return str(self.out / name)
 
     def run(self, name, *arguments):
-        """The report of a step, made unless it is there."""
+        """Returns the report of a step, and runs the step if the report does not exist."""
         report = pathlib.Path(self.path(name + ".json"))
         if not report.exists():
             print("+ nook " + " ".join(arguments), file=sys.stderr, flush=True)
@@ -53,7 +55,7 @@ class Bench:
                         self.path(f"{shape}_{lobes}.nook"))["rows"][0]
 
     def bake_form(self, name, shape, *options):
-        """The row of a bake with options, whose file has the same name."""
+        """Bakes with the given options and returns the row of the report. The file has the name `name`."""
         return self.run(f"{name}_bake", "bake", "transfer", self.shape(shape), "-o", self.path(f"{name}.nook"),
                         *options)["rows"][0]
 
@@ -121,7 +123,7 @@ def light_table(bench):
     return table(["light", "", *MAPS], rows)
 
 
-# Path tracing with reflections takes four times as long as with direct light.
+# Smaller pictures, because path tracing with reflections takes four times as long as with direct light.
 FEW = ["--width", "160", "--height", "120", "--paths", "64"]
 
 
@@ -153,10 +155,10 @@ def holes_table(bench):
     return table(["file", "", *MAPS], rows)
 
 
-# Clusters and ranks of vertices of clustered PCA, with a few bytes less than the paper's form: a cluster
-# has a matrix of all lobes for each vertex mode.
+# Numbers of clusters and vertex ranks of clustered PCA. They need slightly fewer bytes than the paper's form,
+# because each cluster has a matrix of all lobes for each vertex mode.
 PCA = [(38, 1), (19, 2), (12, 3), (9, 4)]
-# The same with matrices of the 128 common combinations of lobes, which are stored once.
+# The same, but a matrix has only the 128 common combinations of lobes, which are stored once.
 COMMON_PCA = [(22, 8)]
 
 

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Writes docs/with_and_without.png, the picture of README.md, from three panels of docs/comparison.png.
 
-nook-lab-crowd makes the sheet (out/crowd/sheet.png): four panels in a row, two rows, with lines of two pixels between them.
-Without an argument the panels are those without AO, with Nook's AO, and ray traced.
+nook-lab-crowd makes the sheet (out/crowd/sheet.png). The sheet has two rows of four panels, with gaps of two
+pixels between them. Without an argument, the script uses the panels without AO, with Nook's AO, and with
+ray-traced AO.
 """
 import pathlib
 import struct
@@ -13,12 +14,12 @@ DOCS = pathlib.Path(__file__).resolve().parents[3] / "docs"
 # Row and column of each panel in the sheet.
 PANELS = [(0, 0), (1, 1), (1, 2)]
 GAP_PX = 2
-# The line of text above each panel, which the caption in the README replaces.
+# Height of the text line above each panel. It is cut off, because the README has a caption.
 TITLE_PX = 16
 
 
 def unfilter(kind, line, above, step):
-    """A line of pixels from its filtered bytes, in place (section 9 of the PNG specification)."""
+    """Decodes the filtered bytes of a line of pixels in place (section 9 of the PNG specification)."""
     for i in range(len(line)):
         a = line[i - step] if i >= step else 0
         b = above[i]
@@ -37,7 +38,7 @@ def unfilter(kind, line, above, step):
 
 
 def read(path):
-    """Lines of an RGB picture with 8 bits a channel."""
+    """Returns the lines of an RGB picture with 8 bits per channel."""
     data = path.read_bytes()
     at, packed, width = 8, b"", 0
     while at < len(data):
@@ -60,7 +61,7 @@ def read(path):
 def write(path, width, lines):
     def chunk(kind, body):
         return struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
-    # Each line is stored as its difference to the line above.
+    # Each line is stored as the difference from the line above.
     above, rows = bytes(3 * width), []
     for line in lines:
         rows.append(b"\2" + bytes((x - y) & 255 for x, y in zip(line, above)))

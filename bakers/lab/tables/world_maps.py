@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Writes two maps of light for docs/lab/world.md, street.hdr and hall.hdr: a sky with a low sun, and a hall with windows and lamps.
+"""Writes two light maps for docs/lab/world.md. street.hdr has a sky with a low sun, and hall.hdr a hall with
+windows and lamps.
 
     bakers/lab/tables/world_maps.py FOLDER
 """
@@ -22,7 +23,8 @@ def angle(a, b):
 
 
 def street(d):
-    """A clear sky over dark ground, houses on both sides, a sun 25 degrees high with its glow."""
+    """Returns the radiance of a clear sky over dark ground, with houses on both sides, and a sun with a glow
+    at 25 degrees above the horizon."""
     sun = (math.cos(math.radians(25)) * 0.8, math.sin(math.radians(25)), math.cos(math.radians(25)) * 0.6)
     off = math.degrees(angle(d, sun))
     if off < 0.5:
@@ -36,7 +38,8 @@ def street(d):
 
 
 def hall(d):
-    """Three high windows in one wall, two lamps at the ceiling, a doorway at the other end."""
+    """Returns the radiance of a hall. It has three high windows in one wall, two lamps at the ceiling, and a
+    doorway at the other end."""
     x, y, z = d
     if x > 0.3 and 0.05 < y / x < 1.1 and any(abs(z / x - middle) < 0.18 for middle in (-0.8, 0.0, 0.8)):
         return SKY

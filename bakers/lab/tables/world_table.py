@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Bakes a table without a skin, measures what it darkens, and draws docs/world_table.png.
+"""Bakes a table (a model without a skin), measures how it darkens other surfaces, and draws
+docs/world_table.png.
 
     bakers/lab/tables/world_table.py [--tool build/bakers/tool/nook] [--out out/world_table]
 """
@@ -11,7 +12,7 @@ import struct
 import subprocess
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
-# Corners of blocks, metres: a plate and four legs.
+# Opposite corners of blocks in metres: the table top and four legs.
 LEGS = [([x - 0.035, 0, z - 0.035], [x + 0.035, 0.71, z + 0.035]) for x in (-0.765, 0.765) for z in (-0.415, 0.415)]
 BLOCKS = [([-0.8, 0.71, -0.45], [0.8, 0.75, 0.45]), *LEGS]
 

@@ -1,12 +1,14 @@
 #!/usr/bin/env python3
-"""Bakes characters, runs nook evaluate world on them, and prints the tables of docs/world.md and docs/lab/world.md.
+"""Bakes characters, runs `nook evaluate world` on them, and prints the tables of docs/world.md and
+docs/lab/world.md.
 
     bakers/lab/tables/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] [--room SCENE.glb=METRES] [--light MAP.hdr] CHARACTER.glb ...
 
-Half of the clips are fitted, the others measured. The self-shadow is fitted in a hurry (--steps 100 --rays 4), which the casters do not
-depend on. --keep keeps models and reports, and uses the ones that exist. The table of rooms has the first character in the built-in
-room and in the rooms of --room, with the given metres per unit. Without --room, this table stays as it is. With
---light the table of irradiance under these maps is the only one.
+Half of the clips are fitted, and the other half is measured. The self-shadow is fitted quickly (--steps 100
+--rays 4), because the casters do not depend on it. With --keep, models and reports are kept, and existing
+ones are reused. The table of rooms has the first character in the built-in room and in the rooms that you
+give with --room. METRES is the number of metres per unit of the scene. Without --room, this table is not
+changed. With --light, only the table of irradiance under these maps is made.
 """
 import argparse
 import json
@@ -73,7 +75,8 @@ def measure_lights(nook, character, folder, maps):
     return json.loads(report.read_text())["rows"]
 
 
-# A column for each surface: all light, the light without the sun, all light with the map's own irradiance in place of the lobes'.
+# For each surface, there are three columns: all light; light without the sun; and all light, with the
+# irradiance of the map instead of the irradiance of the lobes.
 PARTS = [("floor", ""), ("wall", ""), ("floor", "_soft"), ("wall", "_soft"), ("floor", "_exact"), ("wall", "_exact")]
 
 
