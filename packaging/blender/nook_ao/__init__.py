@@ -1,5 +1,5 @@
-"""Nook in Blender: bakes the ambient occlusion of a rigged character by the command `nook`, shows it over the timeline, and opens the
-report for artists."""
+"""Nook in Blender. It bakes the ambient occlusion of a rigged character with the command `nook`, shows it
+over the timeline, and opens the report for artists."""
 bl_info = {
     "name": "Nook: ambient occlusion of characters",
     "author": "the authors of Nook",

@@ -1,7 +1,9 @@
-"""Shows the bakes of a file that Blender opens without a window, as `blender -b FILE -a` does to render it.
+"""Shows the bakes of a file that Blender opens without a window, for example to render it with `blender -b
+FILE -a`.
 
-Nobody can press a button there. A bake is read unasked if it is in the folder of the .blend or below, and the user
-trusts the file. Otherwise, stderr says why it is not shown.
+In this mode, nobody can press a button. The add-on therefore reads a bake without asking, but only if the
+bake is in the folder of the .blend or below, and if the user trusts the file. Otherwise, it writes to stderr
+why the bake is not shown.
 """
 import fnmatch
 import os
@@ -14,7 +16,7 @@ from .faults import Fault
 
 
 def is_trusted():
-    """Whether scripts of files may run: by the command line, or by the preferences."""
+    """Returns whether the command line or the preferences allow files to run scripts."""
     own = sys.argv[1:sys.argv.index("--")] if "--" in sys.argv else sys.argv[1:]
     flags = [a in ("-y", "--enable-autoexec") for a in own if a in ("-y", "--enable-autoexec", "-Y", "--disable-autoexec")]
     if flags:
@@ -28,7 +30,7 @@ def is_trusted():
 
 
 def refusal(files):
-    """Why a bake is not shown unasked; None if it may be."""
+    """Returns why a bake may not be shown without asking, or None if it may."""
     for path in (files.model, files.character):
         inside = records.folder_inside(path)
         if inside is None:
@@ -39,7 +41,8 @@ def refusal(files):
 
 
 def baked_rigs():
-    """The rigs of this file that have a bake, each with whether it was shown when the file was saved; files of version 1.0 do not say."""
+    """Returns the rigs of this file that have a bake. Each has a flag that says whether the bake was shown
+    when the file was saved. Files of version 1.0 do not store this flag."""
     found = [(r.rig, r.is_shown) for r in records.every() if r.rig is not None and r.folder]
     return found + [(o, True) for o in bpy.data.objects if o.type == "ARMATURE" and records.FOLDER_PROPERTY in o and records.find(o) is None]
 

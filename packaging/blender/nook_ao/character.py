@@ -14,7 +14,7 @@ SURFACES = ("CURVE", "SURFACE", "FONT", "META")
 
 
 def armature_of(context):
-    """The selected armature, or the armature of the selected mesh."""
+    """Returns the selected armature, or the armature of the selected mesh."""
     candidates = [o for o in (context.active_object, *context.selected_objects) if o is not None]
     for candidate in candidates:
         armature = armature_of_object(candidate)
@@ -42,7 +42,7 @@ def armature_of_object(candidate):
 
 
 def held_by(item):
-    """The objects and bones that constraints follow."""
+    """Returns the objects and bones that the constraints of an object follow."""
     for constraint in item.constraints:
         if constraint.type in HOLDING and not constraint.mute and constraint.influence > 0:
             for target in constraint.targets if constraint.type == "ARMATURE" else (constraint,):
@@ -66,8 +66,8 @@ def local_place(item):
 
 
 def hanging_place(item, armature):
-    """Returns the bone that an object follows, and the matrix from the object to armature space in the rest pose; None without a
-    bone."""
+    """Returns the bone that an object follows, and the matrix from the object to armature space in the rest
+    pose. Returns None if the object does not follow a bone."""
     bones = armature.data.bones
     for target, name in held_by(item):
         if target == armature and name in bones:
@@ -87,7 +87,7 @@ def hanging_place(item, armature):
 
 
 def belongs_to(item, armature):
-    """Whether an object moves with an armature in any way."""
+    """Returns whether an object moves with an armature in any way."""
     parent = item.parent
     while parent is not None and parent != armature:
         parent = parent.parent
@@ -95,7 +95,7 @@ def belongs_to(item, armature):
 
 
 class Part:
-    """A mesh of a character, which the armature deforms or which follows one bone."""
+    """A mesh of a character. The armature deforms it, or it follows one bone."""
 
     def __init__(self, item, armature):
         self.item = item
@@ -104,16 +104,16 @@ class Part:
             self.bone, self._hanging = hanging_place(item, armature) or ("", None)
 
     def bind_matrix(self, armature):
-        """From the mesh to armature space, in the rest pose."""
+        """Returns the matrix from the mesh to armature space, in the rest pose."""
         if self._hanging is not None:
             return self._hanging
         if self.item.parent == armature and self.item.parent_type in ("OBJECT", "ARMATURE") and not self.item.constraints:
-            return local_place(self.item)  # also right for objects that a view hides and Blender therefore does not place
+            return local_place(self.item)  # also correct for hidden objects, whose world matrix Blender does not update
         return np.linalg.inv(matrix(armature.matrix_world)) @ matrix(self.item.matrix_world)
 
 
 def rendered_objects(layer_collection):
-    """The names of a view layer's objects that lie in a collection that is rendered."""
+    """Returns the names of the view layer's objects that are in a rendered collection."""
     if layer_collection.exclude or layer_collection.collection.hide_render:
         return set()
     found = {o.name_full for o in layer_collection.collection.objects}
@@ -137,25 +137,27 @@ def reason_to_leave_out(item, armature, rendered):
 
 
 def level_of(item):
-    """The level of detail that an object or its mesh is named as, 0 for the finest."""
+    """Returns the level of detail that the name of an object or of its mesh states. 0 is the finest."""
     return max((int(found[1]) for found in map(LEVEL.search, (item.name, item.data.name)) if found), default=0)
 
 
 def is_left_out(name, patterns):
-    """Whether an object matches one of some names with * and ?, separated by commas."""
-    # Brackets have no special meaning here, as in the command.
+    """Returns whether an object's name matches one of the comma-separated patterns. Patterns may contain *
+    and ?."""
+    # Brackets do not have a special meaning, as in the command `nook`.
     return any(fnmatch.fnmatchcase(name, p.strip().replace("[", "[[]")) for p in patterns.split(",") if p.strip())
 
 
 def without_coarse(parts, left_out):
-    """The parts of the finest level of detail."""
+    """Returns the parts of the finest level of detail."""
     finest = min((level_of(p.item) for p in parts), default=0)
     left_out += [(p.item.name, "is a lower level of detail") for p in parts if level_of(p.item) > finest]
     return [p for p in parts if level_of(p.item) == finest]
 
 
 def parts_of(armature, view_layer, without=""):
-    """Returns the parts of a character in the order of their names, and what is left out, as pairs of a name and a reason."""
+    """Returns the parts of a character, sorted by name. Also returns what is left out, as pairs of name and
+    reason."""
     rendered = rendered_objects(view_layer.layer_collection)
     shapes = {b.custom_shape for b in armature.pose.bones if b.custom_shape is not None}
     parts, left_out = [], []
@@ -175,7 +177,8 @@ def parts_of(armature, view_layer, without=""):
 
 
 def check_paintable(armature, parts, scenes):
-    """A mesh keeps one set of colours, and a library's rig cannot keep a bake."""
+    """Raises a Fault if the meshes cannot keep the colours. A mesh has only one set of colours. A rig from a
+    library cannot store a bake."""
     if armature.library is not None:
         raise Fault(f"the armature {armature.name} is linked from {armature.library.filepath}; choose Object > Library Override > Make, or append it")
     for part in parts:
@@ -187,7 +190,8 @@ def check_paintable(armature, parts, scenes):
 
 
 def bind_points(armature, parts):
-    """Returns the undeformed vertices of all parts in armature space, in metres of the scene."""
+    """Returns the undeformed vertices of all parts in armature space. Lengths are in the metres of the
+    scene."""
     points = []
     for part in parts:
         own = np.empty(3 * len(part.item.data.vertices), dtype=np.float32)
@@ -198,15 +202,15 @@ def bind_points(armature, parts):
 
 
 def pose_matrices(armature):
-    """The pose of each bone in armature space, in the order of the bones."""
+    """Returns the pose matrix of each bone in armature space, in the order of the bones."""
     flat = np.empty(16 * len(armature.pose.bones), dtype=np.float32)
     armature.pose.bones.foreach_get("matrix", flat)
     return flat.reshape(-1, 4, 4).transpose(0, 2, 1).astype(np.float64)
 
 
 def skinning_matrices(armature, bone_names):
-    """How each bone moves points of the bind pose, in armature space; a name without a bone moves
-    nothing, like the bone of vertices without weights."""
+    """Returns, for each name, the matrix by which the bone moves points of the bind pose, in armature space.
+    For a name without a bone, it is the identity. An example is the bone of vertices without weights."""
     matrices = np.tile(np.eye(4), (len(bone_names), 1, 1))
     bones = armature.pose.bones
     place = {bone.name: at for at, bone in enumerate(bones)}

@@ -6,13 +6,13 @@ import numpy as np
 
 from . import character, glb, stage
 
-# A clip of more frames is sampled at every second one, and so on: bakes read far fewer.
+# Longer clips are sampled at every second frame, third frame and so on, because bakes read far fewer frames.
 MOST_FRAMES = 200
 SLICE_S = 0.3
 
 
 def own_actions(armature):
-    """The actions in the rig's animation data, and the actions of its NLA that are not muted."""
+    """Returns the action in the rig's animation data, and the actions of NLA strips that are not muted."""
     animation = armature.animation_data
     if animation is None:
         return []
@@ -22,7 +22,7 @@ def own_actions(armature):
 
 
 def fits(action, armature):
-    """Whether an action moves bones of a rig."""
+    """Returns whether an action moves bones of a rig."""
     for curve in getattr(action, "fcurves", ())[:8]:
         if curve.data_path.startswith("pose.bones["):
             return curve.data_path.split('"')[1] in armature.pose.bones
@@ -30,7 +30,7 @@ def fits(action, armature):
 
 
 def chosen_actions(armature, actions):
-    """Returns the actions to export: the rig's own, and the ticked ones that fit."""
+    """Returns the actions to export: the rig's own actions, and the ticked actions that fit the rig."""
     own = own_actions(armature)
     return own + [a for a in actions if a.nook_bake and a not in own and fits(a, armature)]
 
@@ -47,7 +47,7 @@ def frames_of(action):
 
 
 def sample(armature, action, frames_per_s):
-    """Samples an action in slices of time: yields None between them, and the clip at the end."""
+    """Samples an action in time slices. Yields None after each slice, and the clip at the end."""
     frames, matrices = frames_of(action), []
     name = action.name
     while len(matrices) < len(frames):
@@ -62,7 +62,7 @@ def sample(armature, action, frames_per_s):
 
 
 def add_to(file, clip, parents, mirror, node_of_bone):
-    """Adds a clip to a file: one curve a bone for place, turn and size."""
+    """Adds a clip to a file, with three curves per bone: translation, rotation and scale."""
     matrices = mirror @ clip.matrices @ mirror
     times = file.add(clip.seconds.astype(np.float32), bounds=True)
     samplers, channels = [], []

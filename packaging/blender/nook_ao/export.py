@@ -1,6 +1,7 @@
-"""A character as a .glb file in which each vertex has its number.
+"""Writes a character as a .glb file in which each vertex stores its index in Blender.
 
-The file is written from the objects themselves, so that it depends on no selection, on no visibility, and on no exporter.
+The file is written directly from the objects. It therefore does not depend on the selection, on visibility,
+or on an exporter.
 """
 import numpy as np
 
@@ -9,13 +10,13 @@ from .faults import Fault
 from .poses import Y_UP
 from .surface import Surface
 
-# The joint of vertices that no bone moves.
+# The name of the joint for vertices that no bone moves.
 NEUTRAL_BONE = "neutral_bone"
 MOST_JOINTS = 8
 
 
 def mask_of(item, armature):
-    """How far the armature moves each vertex, where its modifier is limited to a group of vertices."""
+    """Returns how strongly the armature moves each vertex, if its modifier is limited to a vertex group."""
     count = len(item.data.vertices)
     for modifier in character.armature_modifiers(item, armature):
         group = item.vertex_groups.get(modifier.vertex_group)
@@ -28,7 +29,8 @@ def mask_of(item, armature):
 
 
 def weights_of(part, armature, bone_at):
-    """Joints and weights of each vertex as vertices x MOST_JOINTS; what no bone moves follows the neutral one."""
+    """Returns the joints and weights of each vertex, as arrays of vertices x MOST_JOINTS. Vertices that no
+    bone moves follow the neutral bone."""
     item, neutral = part.item, len(bone_at)
     count = len(item.data.vertices)
     joints, weights = np.zeros((count, MOST_JOINTS), np.uint16), np.zeros((count, MOST_JOINTS))
@@ -49,7 +51,8 @@ def weights_of(part, armature, bone_at):
 
 
 class Geometry:
-    """What of a character does not move, as arrays in the space of the file's armature."""
+    """The parts of a character that do not change with the pose, as arrays in the space of the file's
+    armature."""
 
     def __init__(self, armature, parts):
         count = sum(len(p.item.data.vertices) for p in parts)
@@ -62,7 +65,8 @@ class Geometry:
         world = character.matrix(armature.matrix_world)
         if not abs(np.linalg.det(world)) > 0:
             raise Fault(f"the armature {armature.name} has a scale of zero; give it another one")
-        # A mirrored armature is written as a mirrored body on an unmirrored armature, so that readers need not handle mirroring.
+        # If the armature is mirrored, the file has a mirrored body on an unmirrored armature. Programs that
+        # read the file then need not handle mirroring.
         self.mirror = np.diag([-1.0, 1, 1, 1]) if np.linalg.det(world) < 0 else np.eye(4)
         self.root = Y_UP @ world @ self.mirror
         self.rest = self.mirror @ np.array([character.matrix(b.matrix_local) for b in bones]).reshape(-1, 4, 4) @ self.mirror
@@ -78,7 +82,8 @@ class Geometry:
 
 
 def _primitive(file, surface, joints, weights, first, chosen, sets):
-    """The triangles of one material, with a vertex for each vertex, normal and UV that differ."""
+    """Adds the triangles of one material. The file has one vertex for each different combination of vertex,
+    normal and UV."""
     corners = surface.corners[chosen].ravel()
     vertices = surface.vertex_of_corner[corners]
     keys = [vertices[:, None], np.rint(surface.normals[corners] * 1e4)]
@@ -100,7 +105,8 @@ def _primitive(file, surface, joints, weights, first, chosen, sets):
 
 
 def _add_bones(file, geometry):
-    """Adds a node for the armature and for each bone, and their skin. Returns the numbers of the bones' nodes."""
+    """Adds a node for the armature, a node for each bone, and the skin. Returns the node indices of the
+    bones."""
     names = geometry.bone_names
     node_of_bone = [1 + at for at in range(len(names))]
     nodes = [{"name": "armature", "matrix": geometry.root.T.ravel().tolist(), "children": []}]
@@ -123,7 +129,7 @@ def _add_bones(file, geometry):
 
 
 def to_glb(geometry, sampled, key):
-    """The bytes of a file; `key` tells whose it is."""
+    """Returns the bytes of a .glb file. `key` identifies the character to which the file belongs."""
     file = glb.Glb()
     document = file.document
     document["asset"]["extras"] = {vertex_numbers.KEY: key}

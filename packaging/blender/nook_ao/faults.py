@@ -1,5 +1,5 @@
-"""What a user can mend: its text is shown as it is."""
+"""Errors that a user can correct. The add-on shows their text unchanged."""
 
 
 class Fault(Exception):
-    """Says what is wrong, what came, and what is needed."""
+    """An error whose text says what is wrong, what was found, and what is needed."""

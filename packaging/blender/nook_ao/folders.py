@@ -1,8 +1,9 @@
 """The folders that the add-on reads and writes.
 
-A .blend file keeps the names of folders: where a bake is, and where the next one goes. A file from somebody else must not choose what
-is loaded and where is written. So such a folder is used after the user has confirmed it since the file was opened, or has chosen it
-since then. Folders that the add-on made for this session are removed with it.
+A .blend file stores the names of folders: where a bake is, and where the next bake is written. A file from
+somebody else must not decide what is loaded and where files are written. The add-on therefore uses such a
+folder only after the user has confirmed or chosen it since the file was opened. Temporary folders that the
+add-on made are removed at the end of the session.
 """
 import atexit
 import os
@@ -19,7 +20,7 @@ _temporary = []
 
 
 def resolved(folder, owner):
-    """The whole path of a folder that a file names; a property of a file can hold anything."""
+    """Returns the absolute path of a folder that a file names. A property of a file can have any content."""
     if not isinstance(folder, str) or not folder:
         raise Fault(f"{owner} names no folder (got {folder!r}); bake again")
     if is_relative(folder) and not bpy.data.filepath:
@@ -32,12 +33,14 @@ def is_relative(folder):
 
 
 def as_relative(folder):
-    """A relative path as Blender writes it: from the .blend on, and not from where Blender was started."""
+    """Returns a relative path in Blender's form. It is relative to the .blend, and not to the folder in which
+    Blender was started."""
     return folder if folder.startswith("//") or not is_relative(folder) else f"//{folder}"
 
 
 def confirm(folder):
-    """The user, or a script that names the folder, wants it. A relative one is meant wherever the file is saved."""
+    """Records that the user, or a script that names the folder, allows it. A relative folder stays allowed
+    wherever the file is saved."""
     _confirmed.add(as_relative(folder) if is_relative(folder) else resolved(folder, "the call"))
 
 
@@ -53,12 +56,14 @@ def require_confirmed(folder):
 
 
 def printable(text):
-    """A name that cannot hide what it is: what is not printable becomes a visible escape."""
+    """Returns a name in which unprintable characters are replaced by visible escapes, so that the name cannot
+    mislead the user."""
     return "".join(c if c.isprintable() else f"\\u{ord(c):04x}" for c in text)
 
 
 def require_own_files(folder, names):
-    """Files that are written must not be links, which lead out of the confirmed folder."""
+    """Raises a Fault if a file to be written is a link, because a link can lead out of the confirmed
+    folder."""
     for name in names:
         path = pathlib.Path(folder) / name
         if path.is_symlink():
@@ -73,7 +78,7 @@ def make_temporary():
 
 
 def remove_temporary(folder):
-    """Removes a folder if make_temporary() made it."""
+    """Removes a folder, but only if make_temporary() made it."""
     folder = str(folder)
     if folder in _temporary:
         _temporary.remove(folder)
@@ -88,7 +93,7 @@ def remove_all_temporary():
 
 @bpy.app.handlers.persistent
 def forget(*_):
-    """Another file names other folders."""
+    """Forgets all confirmed folders when another file is opened, because that file names other folders."""
     _confirmed.clear()
 
 

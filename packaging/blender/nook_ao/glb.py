@@ -1,4 +1,4 @@
-"""Writes .glb files. Plain numpy, so that it can be tested without Blender."""
+"""Writes .glb files. It uses only numpy, so that it can be tested without Blender."""
 import json
 import struct
 
@@ -16,7 +16,7 @@ class Glb:
         self._chunks, self._size = [], 0
 
     def add(self, values, target=None, bounds=False):
-        """Adds an accessor for an array and returns its number."""
+        """Adds an accessor for an array and returns the index of the accessor."""
         values = np.ascontiguousarray(values)
         data = values.tobytes()
         view = {"buffer": 0, "byteOffset": self._size, "byteLength": len(data)}
@@ -42,11 +42,13 @@ class Glb:
 
 
 def to_turns(matrices):
-    """Translations, quaternions (x, y, z, w) and scales of an array of 4x4 matrices; shear is lost."""
+    """Returns the translations, quaternions (x, y, z, w) and scales of an array of 4x4 matrices. Shear is
+    lost."""
     scales = np.linalg.norm(matrices[:, :3, :3], axis=1)
     scales[np.linalg.det(matrices[:, :3, :3]) < 0] *= -1
     r = matrices[:, :3, :3] / np.where(scales == 0, 1, scales)[:, None, :]
-    # Of the four ways to compute a quaternion, takes the one that divides by the largest number.
+    # There are four ways to compute a quaternion. The code uses the one with the largest divisor, which is
+    # the most precise.
     squares = np.stack([1 + r[:, 0, 0] - r[:, 1, 1] - r[:, 2, 2], 1 - r[:, 0, 0] + r[:, 1, 1] - r[:, 2, 2],
                         1 - r[:, 0, 0] - r[:, 1, 1] + r[:, 2, 2], 1 + r[:, 0, 0] + r[:, 1, 1] + r[:, 2, 2]], axis=1)
     yx, zx, zy = r[:, 1, 0] + r[:, 0, 1], r[:, 2, 0] + r[:, 0, 2], r[:, 2, 1] + r[:, 1, 2]

@@ -1,4 +1,4 @@
-"""The Python module of Nook: the copy inside of the add-on, or the installed one."""
+"""Loads the Python module of Nook: the copy inside the add-on, or the installed module."""
 import os
 
 from .faults import Fault
@@ -13,7 +13,8 @@ except ImportError:
 
 
 def load(paths):
-    """The module, whose shared libraries are at the given paths or, without any, where the system has them."""
+    """Returns the module. Its shared libraries are loaded from `paths`, or from the system's places if
+    `paths` is empty."""
     if nook is None:
         raise Fault("the Python module nook is missing; install the add-on from the .zip file of a release, which holds it")
     if paths:

@@ -1,4 +1,5 @@
-"""The error of a bake against ray tracing of the meshes as Blender evaluates them, in the poses that differ most."""
+"""Measures the error of a bake. It compares the colours with ray tracing of the meshes as Blender evaluates
+them, in the poses that differ most from each other."""
 import numpy as np
 
 from . import character, clips, poses, shown, stage, surface
@@ -6,16 +7,16 @@ from . import character, clips, poses, shown, stage, surface
 POSES, MOST_POINTS, RAYS = 3, 3000, 128
 MOST_FRAMES, MOST_ACTIONS, FRAMES_OF_ACTION = 24, 12, 4
 VISIBLE = 0.01
-# The colours may be this much worse than the model's own error before the add-on looks for a reason. Noise of the rays stays below
-# it.
+# If the error of the colours exceeds the model's own error by more than this, the add-on looks for a reason.
+# The noise of the rays is smaller.
 ALLOWED = 0.01
-# Of the size of the body: what is further away is another surface.
+# As a share of the body's size. Points that are farther apart are on different surfaces.
 NEAR = 1e-3
 SHEAR = 1.02
 
 
 class Errors:
-    """Roots of the mean squared error over what ray tracing does not find black."""
+    """Root mean square errors over the points that are not black in ray tracing."""
 
     def __init__(self):
         self._sums, self._counts = {}, {}
@@ -30,7 +31,7 @@ class Errors:
 
 
 class Still:
-    """The meshes of a character in one pose, as Blender evaluates them, in Nook's world."""
+    """The meshes of a character in one pose, as Blender evaluates them, in the world space of Nook."""
 
     def __init__(self, entry, pose, evaluated_items):
         self.pose = pose
@@ -54,7 +55,7 @@ class Still:
         self._add_distance(entry)
 
     def _add_distance(self, entry):
-        """How far the vertices are from the model's, and the normals of the bake."""
+        """Adds the distances between the vertices and the model's vertices, and the normals of the bake."""
         self.same_vertices = len(self.positions) == entry.count
         self.distance, self.bake_normals = np.inf, None
         if self.same_vertices:
@@ -71,10 +72,11 @@ class Still:
 
 
 def take_still(entry, played, frame):
-    """Colours of a pose on the meshes, then the meshes: modifiers interpolate what they add."""
+    """Paints the colours of a pose on the meshes, and then takes the evaluated meshes. Modifiers interpolate
+    the colours for the vertices that they add."""
     pose = _rig_pose(entry, played)
     entry.paint(shown.AO, entry.to_vertices(entry.evaluate(pose, False)))
-    played.set_frame(frame)  # an update without a frame would take the pose of the artist's scene
+    played.set_frame(frame)  # an update without set_frame would use the pose of the artist's scene
     return Still(entry, pose, [played.evaluated(played.copies[item]) for item in entry.items])
 
 
@@ -83,7 +85,8 @@ def _rig_pose(entry, played):
 
 
 def candidates(entry, scene, actions):
-    """Poses that are worth a look, each as what leads to it: frames of the timeline, frames of actions, and the present pose."""
+    """Returns candidate poses: frames of the timeline, frames of actions, and the current pose. Each is
+    stored as the way to reach the pose."""
     frames = np.unique(np.linspace(scene.frame_start, scene.frame_end, MOST_FRAMES).round()).tolist()
     found = []
     with stage.opened(entry.armature) as played:
@@ -99,7 +102,8 @@ def candidates(entry, scene, actions):
 
 
 def farthest(entry, found):
-    """The poses that differ most from the rest pose and from each other, by the places of some vertices."""
+    """Returns the poses that differ most from the rest pose and from each other, judged by the positions of
+    some vertices."""
     chosen = np.linspace(0, entry.character.vertex_count - 1, 200).astype(int)
 
     def places(pose):
@@ -122,7 +126,7 @@ def farthest(entry, found):
 
 
 def take_pose(entry, way, actions):
-    """Takes a still of one pose, on a stage that is made for it."""
+    """Takes a still of one pose, on a new stage."""
     kind, name, value = way
     with stage.opened(entry.armature, entry.items) as played:
         if kind == "turned":
@@ -138,12 +142,13 @@ def chosen_points(count, most, seed):
 
 
 def directed(which, normals):
-    """Keeps indices whose normals have a direction. Triangles without an area leave vertices without one."""
+    """Returns the indices in `which` whose normals are not zero. A vertex that has only triangles without
+    area has a zero normal."""
     return which[np.linalg.norm(normals[which], axis=1) > 0.5]
 
 
 def add_errors(errors, entry, still, most=MOST_POINTS, rays=RAYS):
-    """Traces one still: yields between the traces."""
+    """Traces one still and adds its errors. Yields between the traces."""
     points = directed(still.used, still.bake_normals)
     points = points[chosen_points(len(points), most, 1)]
     truth = still.trace(entry, still.positions[points], still.bake_normals[points], rays)
@@ -164,13 +169,13 @@ def add_errors(errors, entry, still, most=MOST_POINTS, rays=RAYS):
 
 
 def shear_of(pose):
-    """Returns by how much the most sheared bone stretches one direction more than another."""
+    """Returns the largest ratio by which a bone stretches one direction more than another."""
     sizes = np.linalg.svd(np.asarray(pose, dtype=np.float64)[:, :, :3], compute_uv=False)
     return float((sizes[:, 0] / np.maximum(sizes[:, 2], 1e-30)).max())
 
 
 def reasons(entry, stills):
-    """What of a character its model does not know, in words."""
+    """Returns, in words, which properties of the character the model does not contain."""
     armature, found = entry.armature, []
     for item in entry.items:
         name = item.name
@@ -201,7 +206,8 @@ def text_of(errors, stills, why):
 
 
 def after_bake(context, entry, actions):
-    """Measures a fresh bake in slices: yields None between them, and at the end the lines for the panel and the reasons to warn."""
+    """Measures a new bake in time slices. Yields None between slices. At the end, yields the lines for the
+    panel and the reasons for warnings."""
     ways = farthest(entry, candidates(entry, context.scene, actions))
     yield None
     errors, stills = Errors(), []

@@ -12,13 +12,14 @@ import bpy
 from . import character, clips, export, folders, library, measure, preferences, records, shown, tool
 from .faults import Fault
 
-# How long a command may work before Blender draws its window again.
+# How many seconds a command may work before Blender redraws its window.
 SLICE_S = 0.1
 
 
 @contextlib.contextmanager
 def object_mode(context):
-    """Edits of a mesh reach its data when its mode is left; afterwards the artist is in the same mode again."""
+    """Switches to object mode, because edits of a mesh are written to its data when edit mode is left.
+    Afterwards, restores the artist's mode."""
     active = context.view_layer.objects.active
     mode = active.mode if active is not None else "OBJECT"
     if mode != "OBJECT":
@@ -31,13 +32,15 @@ def object_mode(context):
 
 
 def error_text(error):
-    """A message as a sentence. A first word that is a path or a function stays as it is."""
+    """Returns an error message as a sentence. If the first word is a path or a function, it is not
+    capitalised."""
     text = str(error)
     return text[0].upper() + text[1:] if text.split(" ", 1)[0].isalpha() else text
 
 
 def ask(folder, then):
-    """Returns True after it has shown a dialog about a folder that only the file has chosen; the dialog calls operator `then`."""
+    """If only the file has chosen the folder, shows a dialog about it and returns True. The dialog calls the
+    operator `then`."""
     if folders.is_confirmed(folder) or bpy.app.background:
         return False
     bpy.ops.nook.confirm("INVOKE_DEFAULT", folder=folder, then=then)
@@ -55,7 +58,7 @@ class NOOK_OT_confirm(bpy.types.Operator):
     then: bpy.props.EnumProperty(items=(("none", "", ""), ("bake", "", ""), ("show", "", ""), ("report", "", "")), default="none",
                                  options={"SKIP_SAVE", "HIDDEN"})
 
-    # What happens to the folder, for the user who decides.
+    # What Nook will do with the folder. The dialog shows this to the user.
     USES = {"bake": "Nook will write files by the name of the armature there:",
             "show": "Nook will load the files of the bake from there:",
             "report": "Nook will load the bake from there, and write the report there:", "none": "Nook may read and write there:"}
@@ -80,25 +83,26 @@ class NOOK_OT_confirm(bpy.types.Operator):
         if self.then != "none":
             try:
                 getattr(bpy.ops.nook, self.then)("INVOKE_DEFAULT")
-            except RuntimeError as error:  # what the operator reported
+            except RuntimeError as error:  # the error that the operator reported
                 self.report({"ERROR"}, str(error).removeprefix("Error: ").strip())
                 return {"CANCELLED"}
         return {"FINISHED"}
 
 
 class CommandOperator(bpy.types.Operator):
-    """Work in slices. From the interface it runs beside Blender and Escape ends it; from a script Blender waits."""
+    """Work in time slices. If the user starts it, Blender stays usable and Escape cancels the work. If a
+    script starts it, Blender waits for the end."""
 
     bl_options = {"REGISTER"}
-    is_kept = False  # whether Escape comes too late
-    then = ""  # the operator (without "nook.") that the dialog about a folder calls
+    is_kept = False  # whether it is too late to cancel with Escape
+    then = ""  # operator that the folder dialog calls, without "nook."
 
     def folder(self, context):
-        """The folder that the command reads or writes, or None for a temporary one."""
+        """Returns the folder that the command reads or writes, or None for a temporary folder."""
         raise NotImplementedError
 
     def work(self, context):
-        """Works, and yields between slices what it is at."""
+        """Does the work. Between slices, yields what it is doing."""
         raise NotImplementedError
 
     def execute(self, context):
@@ -129,7 +133,7 @@ class CommandOperator(bpy.types.Operator):
         return first
 
     def _go_on(self, context):
-        """One slice of the work."""
+        """Does one slice of the work."""
         begin = time.monotonic()
         try:
             while time.monotonic() - begin < SLICE_S:
@@ -164,7 +168,7 @@ class CommandOperator(bpy.types.Operator):
         return run.last_line if run is not None and run.last_line else getattr(self, "_at", "")
 
     def cancel(self, _context):
-        """Blender ends."""
+        """Called when Blender exits."""
         self._work.close()
 
     def _end(self, context):
@@ -172,7 +176,7 @@ class CommandOperator(bpy.types.Operator):
         context.workspace.status_text_set(None)
 
     def run_tool(self, arguments):
-        """Runs the command; it ends with the work."""
+        """Runs the command `nook`. If the work ends early, the command is ended too."""
         self._run = tool.Run(arguments)
         try:
             while not self._run.is_done():
@@ -184,7 +188,8 @@ class CommandOperator(bpy.types.Operator):
         self._run.check()
 
 
-# Characters that are being baked, by the key of their record: two bakes would write the same files.
+# Characters that are being baked, by the key of their record. A second bake is refused, because it would
+# write the same files.
 _baking = set()
 
 
@@ -201,7 +206,8 @@ def alone(record_key, name):
 
 @contextlib.contextmanager
 def scratch(folder):
-    """A folder beside the final files, which are in `folder`. It goes with what is in it, so that a bake that ends early leaves nothing."""
+    """Makes a temporary folder beside the final files, which are in `folder`. It is removed with its content,
+    so that a cancelled bake leaves no files."""
     made = [p for p in (folder, *folder.parents) if not p.exists()]
     try:
         folder.mkdir(parents=True, exist_ok=True)
@@ -214,7 +220,7 @@ def scratch(folder):
         shutil.rmtree(temporary, ignore_errors=True)
         for each in made:
             with contextlib.suppress(OSError):
-                each.rmdir()  # only what is empty
+                each.rmdir()  # fails if not empty
 
 
 class NOOK_OT_bake(CommandOperator):
@@ -232,7 +238,7 @@ class NOOK_OT_bake(CommandOperator):
 
     def work(self, context):
         command = tool.find(preferences.of(context).tool)
-        library.load(preferences.of(context).library)  # a bake that cannot be shown is not begun
+        library.load(preferences.of(context).library)  # do not start a bake that cannot be shown
         armature, scene = character.armature_of(context), context.scene
         parts, left_out = character.parts_of(armature, context.view_layer, records.setting(armature, scene, "without"))
         character.check_paintable(armature, parts, bpy.data.scenes)
@@ -286,9 +292,9 @@ class NOOK_OT_bake(CommandOperator):
         yield from self.run_tool([command, "bake", "character", str(glb), "-o", str(model), "--preset", preset, "--poses", learns_from])
 
     def _keep(self, context, temporary, folder, key, name, items):
-        """Moves both files to their names, and notes where they are."""
+        """Moves both files to their final names, and stores where they are."""
         record = records.find_key(key)
-        if record is None:  # an undo took it back
+        if record is None:  # an undo removed it
             rig = bpy.data.objects.get(name)
             record = records.make(context.scene, rig) if rig is not None else None
         if record is None or record.rig is None or None in items:
@@ -301,14 +307,14 @@ class NOOK_OT_bake(CommandOperator):
         except OSError as error:
             raise Fault(f"the files {files.character} and {files.model} cannot be written ({error.strerror})") from error
         if record.folder and record.folder != str(folder):
-            folders.remove_temporary(record.folder)  # the bake that this one replaces
+            folders.remove_temporary(record.folder)  # the bake that is replaced
         records.keep_files(record, files)
         records.set_parts(record, items)
         record.rig[records.FOLDER_PROPERTY] = str(folder)
         self.is_kept = True
 
     def _measure(self, context, entry, names):
-        """Says how right the colours are on the meshes that Blender shows."""
+        """Measures the error of the colours on the meshes that Blender shows."""
         actions = [bpy.data.actions[n] for n in names if n in bpy.data.actions]
         result = None
         try:
@@ -326,7 +332,8 @@ class NOOK_OT_bake(CommandOperator):
 
 
 def find_again(item, name):
-    """An object after other work of the artist: an undo makes it anew under its name."""
+    """Finds an object again after other operations of the artist. An undo creates the object again under the
+    same name."""
     try:
         return item if item.users_scene else None
     except ReferenceError:
@@ -346,7 +353,7 @@ class NOOK_OT_show(bpy.types.Operator):
             if shown.get(armature) is None and ask(str(shown.existing_files(armature).folder), "show"):
                 return {"CANCELLED"}
         except Fault:
-            pass  # execute() says it
+            pass  # execute() reports it
         return self.execute(context)
 
     def execute(self, context):
@@ -430,7 +437,8 @@ def shown_of(context):
 
 
 def show_colours(context):
-    """Solid views show the active colour attribute without light, so that grey is the ambient occlusion itself."""
+    """Makes solid views show the active colour attribute without light, so that the grey is exactly the
+    ambient occlusion."""
     for area in context.screen.areas if context.screen else ():
         if area.type == "VIEW_3D":
             shading = area.spaces.active.shading

@@ -6,7 +6,8 @@ from .faults import Fault
 
 
 def draw_actions(layout, armature):
-    """The rig's own actions, which every bake learns from, and others that fit, to tick."""
+    """Lists the rig's own actions, which every bake uses, and other actions that fit the rig, with check
+    boxes."""
     own = clips.own_actions(armature)
     others = [a for a in bpy.data.actions if a not in own and clips.fits(a, armature)]
     if not own and not others:
@@ -54,7 +55,7 @@ class NOOK_PT_panel(bpy.types.Panel):
         self._draw_words(layout, armature)
 
     def _draw_words(self, layout, armature):
-        """What was measured, and why a character is not shown any more."""
+        """Shows what was measured, and why a character is no longer shown."""
         record, stopped = records.find(armature), shown.why_stopped(armature)
         lines = record.says.splitlines() if record is not None else []
         if lines or stopped:

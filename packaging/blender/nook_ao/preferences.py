@@ -1,4 +1,4 @@
-"""Where the command and the libraries are, and the settings of a rig."""
+"""Says where the command and the libraries are, and keeps the settings of a rig."""
 import bpy
 
 from . import folders
@@ -22,7 +22,7 @@ class NookPreferences(bpy.types.AddonPreferences):
 
 
 def confirm_chosen(settings, _context):
-    """Called when the user or a script sets the folder, and not when a file is loaded."""
+    """Called when the user or a script sets the folder, but not when a file is loaded."""
     if settings.folder:
         folders.confirm(settings.folder)
 
@@ -45,7 +45,7 @@ class NookSettings(bpy.types.PropertyGroup):
 
 
 class Unregistered:
-    """What the preferences are where the add-on runs from a folder, as its tests do."""
+    """The preferences if the add-on runs from a folder without being installed, as in its tests."""
 
     tool = ""
     library = ""

@@ -1,6 +1,7 @@
-"""Which characters are baked: what a saved scene keeps of them, and where their files are.
+"""Records of the baked characters: what a saved scene stores about them, and where their files are.
 
-A pointer to an object survives its renaming, an undo and a saved file; a reference of Python does not survive an undo.
+A record uses a pointer property, because it stays valid when the object is renamed, after an undo, and in a
+saved file. A Python reference becomes invalid after an undo.
 """
 import os
 import pathlib
@@ -12,7 +13,8 @@ import bpy
 from . import folders, vertex_numbers
 from .faults import Fault
 
-# Where scenes of version 1.0 keep the folder of a bake, whose files are all called alike.
+# The property in which scenes of version 1.0 store the bake's folder, and the name of the files. The files in
+# every bake folder have the same names.
 FOLDER_PROPERTY, OLD_STEM = "nook_folder", "character"
 RESERVED = re.compile(r"^(con|prn|aux|nul|com\d|lpt\d)$", re.IGNORECASE)
 
@@ -39,7 +41,7 @@ def every():
 
 
 def find(armature):
-    """The record of an armature, or None."""
+    """Returns the record of an armature, or None."""
     return next((r for r in every() if r.rig == armature), None)
 
 
@@ -71,14 +73,14 @@ def set_parts(record, items):
 
 
 def to_words(record):
-    """A record without pointers."""
+    """Returns the record as text, without pointers."""
     values = {name: getattr(record, name) for name in ("key", "folder", "relative", "stem", "is_shown", "says")}
     parts = [(p.item.name, p.vertices) for p in record.parts if p.item is not None]
     return record.id_data.name, record.rig.name, parts, values
 
 
 def from_words(words):
-    """Restores the record if its objects exist and have no other record."""
+    """Restores a record from text if its objects exist and do not have another record."""
     scene_name, rig_name, parts, values = words
     scene, rig = bpy.data.scenes.get(scene_name), bpy.data.objects.get(rig_name)
     items = [bpy.data.objects.get(name) for name, _ in parts]
@@ -93,7 +95,8 @@ def from_words(words):
 
 
 def folder_inside(folder):
-    """A folder relative to the saved .blend's folder; None if it is not inside, with links followed."""
+    """Returns a folder relative to the folder of the saved .blend. Links are followed. Returns None if the
+    folder is not inside."""
     if not bpy.data.filepath:
         return None
     own, other = os.path.realpath(os.path.dirname(bpy.data.filepath)), os.path.realpath(folder)
@@ -101,7 +104,7 @@ def folder_inside(folder):
 
 
 class Files:
-    """The files of a character's bake."""
+    """The paths of the files of a character's bake."""
 
     def __init__(self, folder, stem):
         self.folder, self.stem = pathlib.Path(folder), stem
@@ -120,7 +123,8 @@ class Files:
 
 
 def files_of(armature):
-    """Where the bake of an armature is; None without one. A folder inside the .blend's folder moves with it."""
+    """Returns the files of an armature's bake, or None if there is no bake. If the bake is inside the
+    .blend's folder, it is found relative to the .blend."""
     record, owner = find(armature), f"the armature {armature.name}"
     if record is None or not record.folder:
         return Files(folders.resolved(armature[FOLDER_PROPERTY], owner), OLD_STEM) if FOLDER_PROPERTY in armature else None
@@ -143,13 +147,13 @@ def keep_files(record, files):
 
 
 def stem_of(name):
-    """Makes a name valid for a file on every system."""
+    """Returns a file name, made from `name`, that is valid on every system."""
     stem = re.sub(r'[\x00-\x1f<>:"/\\|?*]', "_", name).rstrip(" .") or "character"
     return f"{stem}_" if RESERVED.match(stem) else stem
 
 
 def free_files(folder, name, key):
-    """Files by the name of the character that are its own, or that nobody has."""
+    """Returns files named after the character that already belong to it, or whose names are free."""
     for number in range(1, 1000):
         files = Files(folder, stem_of(name) if number == 1 else f"{stem_of(name)}-{number}")
         owner = vertex_numbers.read_key(files.character)
@@ -159,7 +163,8 @@ def free_files(folder, name, key):
 
 
 def setting(armature, scene, name):
-    """A setting of the rig, or of the scene if the rig has none; scripts and older files set the scene's."""
+    """Returns a setting of the rig, or of the scene if the rig does not have it. Scripts and older files set
+    the scene's settings."""
     return getattr(settings_of(armature, scene, name), name)
 
 
@@ -169,7 +174,8 @@ def settings_of(armature, scene, name):
 
 @bpy.app.handlers.persistent
 def before_save(*_):
-    """Forgets characters that are in no scene any more, and notes which folders are inside the file's folder."""
+    """Removes the records of characters that are no longer in a scene, and stores which folders are inside
+    the file's folder."""
     for scene in bpy.data.scenes:
         for at in reversed(range(len(scene.nook_characters))):
             record = scene.nook_characters[at]

@@ -1,4 +1,5 @@
-"""Characters whose ambient occlusion is shown: the model of each, and the handlers that follow the timeline, posing and renders."""
+"""The characters whose ambient occlusion is shown. Contains the model of each character, and the handlers
+that follow the timeline, posing and renders."""
 import bpy
 import numpy as np
 
@@ -6,14 +7,15 @@ from . import character, folders, library, poses, preferences, records, stage, v
 from .faults import Fault
 
 AO, TRACED = "Nook AO", "Nook traced"
-# How many vertices each mesh had at the bake, in scenes of version 1.0.
+# Property in scenes of version 1.0: how many vertices each mesh had at the bake.
 COUNTS_PROPERTY = "nook_vertex_counts"
-# What they leave out, there.
+# Property in scenes of version 1.0: which objects the bake left out.
 WITHOUT_PROPERTY = "nook_without"
 
 
 class Shown:
-    """A baked character with what leads from its pose in Blender to colours on its meshes."""
+    """A baked character, with everything that is needed to get from its pose in Blender to colours on its
+    meshes."""
 
     def __init__(self, record, files, nook):
         self.key, self.nook, self.painted = record.key, nook, None
@@ -35,8 +37,8 @@ class Shown:
         self.instance = self.scene.add_instance(self.model)
 
     def _bind_places(self, armature, parts, rest):
-        """Vertices in armature space and in the file. Objects that follow a bone by a constraint may have moved since, so they are
-        left out if there are others."""
+        """Stores vertices in armature space and in the file. Objects that follow a bone by a constraint may
+        have moved since the bake. They are left out if there are other objects."""
         numbers = self.numbers
         deformed = np.repeat([not part.bone for part in parts], self.counts)
         chosen = deformed[numbers] if deformed.any() else np.ones(len(numbers), dtype=bool)
@@ -55,18 +57,19 @@ class Shown:
         return [p.item for p in self.record.parts]
 
     def pose_of(self, evaluated):
-        """The matrices of the pose that an evaluated armature has."""
-        # The order of bones is the same in the model and in the file.
+        """Returns the pose matrices of an evaluated armature."""
+        # The bones have the same order in the model and in the file.
         skinning = character.skinning_matrices(evaluated, self.model.bone_names)
         return poses.bone_matrices(character.matrix(evaluated.matrix_world), skinning, self.rest)
 
     def pose(self, depsgraph=None):
-        """The pose of a view or of a render; None where it does not have the armature."""
+        """Returns the pose in a view or in a render. Returns None if the armature does not exist there."""
         evaluated = self.armature.evaluated_get(depsgraph or bpy.context.evaluated_depsgraph_get())
         return self.pose_of(evaluated) if evaluated.is_evaluated else None
 
     def evaluate(self, pose, ground):
-        """AO of a pose, one value for each vertex of the file; ground darkens from below, at the height of zero."""
+        """Returns the AO of a pose, one value for each vertex of the file. If `ground` is true, a ground at
+        height 0 darkens the body from below."""
         self.instance.set_pose(pose)
         self.instance.set_ground((0.0, 1.0, 0.0, 0.0) if ground else None)
         self.scene.update()
@@ -77,12 +80,13 @@ class Shown:
         return 1e-4 * float(np.linalg.norm(self.character.bounds[1] - self.character.bounds[0]))
 
     def trace(self, pose, rays):
-        """The same by ray tracing of the body alone."""
+        """Returns the same values, computed by ray tracing only the body."""
         positions, normals = self.character.skin(pose)
         return self.nook.trace_ao([(positions, self.character.triangles())], positions, normals, rays=rays, origin_offset=self.ray_offset)
 
     def to_vertices(self, values):
-        """Turns values of the file's vertices into values of Blender's vertices, mesh after mesh."""
+        """Converts values of the file's vertices to values of Blender's vertices, one mesh after the
+        other."""
         return poses.mean_of_copies(values, self.numbers, self.count)
 
     def paint(self, name, grey):
@@ -93,7 +97,8 @@ class Shown:
             first += count
 
     def follow(self, depsgraph, ground):
-        """Paints the pose of a view or of a render, if it is another one than the last; meshes that are being edited wait."""
+        """Paints the pose of a view or of a render, if it differs from the last painted pose. Meshes in edit
+        mode are not painted until editing ends."""
         if any(o.data.is_editmode for o in self.items):
             return
         pose = self.pose(depsgraph)
@@ -102,7 +107,7 @@ class Shown:
             self.paint(AO, self.to_vertices(self.evaluate(pose, ground)))
 
     def what_is_gone(self):
-        """Why this character cannot be shown any more; None while it can."""
+        """Returns why this character can no longer be shown, or None if it can."""
         record = self.record
         if record is None or record.rig is None or any(p.item is None for p in record.parts):
             return "its armature or a mesh of it is gone"
@@ -126,7 +131,7 @@ def write_colours(data, name, grey):
     colours[:, :3] = grey[:, None]
     if data.library is None:
         attribute.data.foreach_set("color", colours.ravel())
-    else:  # foreach_set leaves data of a library as they are, without a word
+    else:  # foreach_set silently does not change data of a library
         for element, colour in zip(attribute.data, colours.tolist()):
             element.color = colour
     if not is_rendering() and data.color_attributes.active_color != attribute:
@@ -143,25 +148,25 @@ def is_rendering():
 
 
 def get(armature):
-    """The shown character of an armature, or None."""
+    """Returns the shown character of an armature, or None."""
     record = records.find(armature)
     return _shown.get(record.key) if record is not None else None
 
 
 def why_stopped(armature):
-    """Why a character that was shown is not any more, or None."""
+    """Returns why a character is no longer shown, or None."""
     record = records.find(armature)
     return _stopped.get(record.key) if record is not None else None
 
 
 def record_of_old_bake(context, armature):
-    """The record of a bake by version 1.0, which knew the meshes by their order."""
+    """Makes the record of a bake by version 1.0, which identified meshes by their order."""
     without = armature.get(WITHOUT_PROPERTY, "")
     parts, _ = character.parts_of(armature, context.view_layer, without if isinstance(without, str) else "")
     items = [p.item for p in parts if not p.bone and p.item.visible_get(view_layer=context.view_layer)]
     try:
         counts = [int(count) for count in armature.get(COUNTS_PROPERTY, vertex_counts(items))]
-    except (TypeError, ValueError):  # a property of a file can hold anything
+    except (TypeError, ValueError):  # a property of a file can have any content
         counts = []
     if counts != vertex_counts(items):
         raise Fault(f"the meshes have {vertex_counts(items)} vertices, and the bake is of {counts}; bake again after a change of the meshes")
@@ -172,7 +177,7 @@ def record_of_old_bake(context, armature):
 
 
 def existing_files(armature):
-    """Where the armature's bake is, as the file says; it may have to be confirmed."""
+    """Returns where the armature's bake is according to the file. The user may have to confirm the folder."""
     files = records.files_of(armature)
     if files is None:
         raise Fault(f"the armature {armature.name} has no bake; bake it first")
@@ -223,15 +228,15 @@ def _stop(key, reason):
 def follow(scene, depsgraph=None):
     """Paints all shown characters at a new frame, and in a new pose.
 
-    A render and every view evaluate the scene separately; the meshes follow the rig of that evaluation. While a render runs, views
-    do not paint.
+    A render and every view evaluate the scene separately. The meshes follow the rig of the evaluation that
+    calls this. While a render runs, views do not paint.
     """
     if not _shown or depsgraph is None or stage.is_open() or (is_rendering() and depsgraph.mode != "RENDER"):
         return
     for key in list(_shown):
         entry = _shown[key]
         if entry.record is None:
-            continue  # an undo took the armature back; a redo brings it again
+            continue  # an undo removed the armature; a redo can restore it
         gone = entry.what_is_gone()
         if gone is not None:
             _stop(key, gone)
@@ -257,7 +262,8 @@ _before_undo = {}
 
 @bpy.app.handlers.persistent
 def remember(*_):
-    """What an undo may take back although the files stay: by names, because objects are made anew."""
+    """Remembers the records that an undo may remove although their files still exist. They are stored by
+    object names, because an undo creates the objects again."""
     _before_undo.clear()
     for key in _shown:
         record = records.find_key(key)
@@ -267,7 +273,8 @@ def remember(*_):
 
 @bpy.app.handlers.persistent
 def repaint(*_):
-    """After an undo a bake is still on disk, and the meshes have the colours of another time."""
+    """Restores records and paints again after an undo. The bake is still on disk, but the meshes have old
+    colours."""
     for key, words in _before_undo.items():
         if records.find_key(key) is None:
             records.from_words(words)
@@ -277,7 +284,7 @@ def repaint(*_):
 
 @bpy.app.handlers.persistent
 def forget(*_):
-    """Another file holds other objects."""
+    """Forgets all shown characters when another file is opened, because that file has other objects."""
     _shown.clear()
     _stopped.clear()
     end_render()

@@ -1,4 +1,5 @@
-"""A separate scene in which copies of a character move, so that the artist's scene keeps its frame, its pose and its selection."""
+"""A separate scene in which copies of a character move. The frame, the pose and the selection of the artist's
+scene are thus not changed."""
 import contextlib
 import math
 import random
@@ -9,12 +10,12 @@ _open = 0
 
 
 def is_open():
-    """Whether the frames that change now belong to a stage."""
+    """Returns whether a stage is open, so that frame changes come from the stage."""
     return _open > 0
 
 
 def with_holders(items, armature):
-    """Returns items with the objects between them and the armature, such as an empty in a hand."""
+    """Returns `items` and the objects between them and the armature, such as an empty in a hand."""
     found = []
     for item in items:
         while item is not None and item != armature and item not in found:
@@ -24,7 +25,8 @@ def with_holders(items, armature):
 
 
 class Stage:
-    """Copies of an armature and of meshes. References into it are good until it closes."""
+    """Copies of an armature and of meshes. References to objects of a stage are valid until the stage is
+    closed."""
 
     def __init__(self, armature, items=()):
         self.scene = bpy.data.scenes.new("Nook stage")
@@ -50,7 +52,7 @@ class Stage:
                     setattr(owner, each.identifier, self.copies[getattr(owner, each.identifier)])
 
     def play(self, action):
-        """Gives the rig one action in place of its own animation, from the rest pose on."""
+        """Puts the rig into its rest pose and replaces its animation by one action."""
         animation = self.rig.animation_data_create()
         animation.use_nla = False
         self.rest()
@@ -62,7 +64,8 @@ class Stage:
             bone.rotation_quaternion, bone.rotation_euler, bone.rotation_axis_angle = (1, 0, 0, 0), (0, 0, 0), (0, 0, 1, 0)
 
     def turn_bones(self, seed):
-        """A pose for rigs without animation: every bone but the roots turns by at most 30 degrees an axis."""
+        """Sets a random pose, for rigs without animation. Every bone except the roots is rotated by at most
+        30 degrees per axis."""
         self.rig.animation_data_clear()
         self.rest()
         turns = random.Random(seed)

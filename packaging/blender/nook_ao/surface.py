@@ -1,4 +1,4 @@
-"""Reads meshes as arrays, both in Blender 3.4 and in 4.1 and newer."""
+"""Reads meshes as arrays, in Blender 3.4 as well as in 4.1 and newer."""
 import numpy as np
 
 
@@ -9,7 +9,7 @@ def read(collection, name, kind, width=1):
 
 
 def corner_normals(mesh):
-    """Returns the normals that Blender shades with, one for each corner of a face."""
+    """Returns the normals that Blender uses for shading, one for each corner of a face."""
     if hasattr(mesh, "calc_normals_split"):  # until 4.0
         mesh.calc_normals_split()
         return read(mesh.loops, "normal", np.float32, 3)
@@ -17,7 +17,8 @@ def corner_normals(mesh):
 
 
 class Surface:
-    """Returns the triangles of a mesh: positions of vertices, and for each corner its vertex, normal and UV."""
+    """The triangles of a mesh. Has the positions of vertices, and for each corner its vertex, normal and
+    UV."""
 
     def __init__(self, mesh):
         mesh.calc_loop_triangles()
@@ -31,7 +32,8 @@ class Surface:
         self.triangles = self.vertex_of_corner[self.corners]
 
     def move(self, placed):
-        """Into another space; a mirroring one turns triangles around, so that they keep their outer side."""
+        """Transforms the surface into another space. If the matrix mirrors, the vertex order of triangles is
+        reversed, so that their outer side stays the same."""
         self.positions = self.positions @ placed[:3, :3].T + placed[:3, 3]
         turned = self.normals @ np.linalg.inv(placed[:3, :3])
         self.normals = turned / np.maximum(np.linalg.norm(turned, axis=1, keepdims=True), 1e-30)
@@ -40,7 +42,8 @@ class Surface:
 
 
 def smooth_normals(positions, triangles):
-    """Unit normals weighted by area, one for each vertex, with vertices at one place taken together."""
+    """Returns unit normals weighted by area, one for each vertex. Vertices at the same position share a
+    normal."""
     size = max(float(np.ptp(positions, axis=0).max()), 1e-30)
     _, place = np.unique(np.rint(positions / (1e-6 * size)).astype(np.int64), axis=0, return_inverse=True)
     place = place.ravel()

@@ -1,4 +1,4 @@
-"""The command `nook` as a process that reports its progress line by line."""
+"""Runs the command `nook` as a process that reports its progress line by line."""
 import os
 import queue
 import shutil
@@ -9,19 +9,19 @@ from .faults import Fault
 
 
 def find(path):
-    """The command at the path of the preferences, or on the search path of the system."""
+    """Returns the command at the path from the preferences, or on the search path of the system."""
     found = shutil.which(path or "nook")
     if found is None:
         raise Fault(f"the command {path or 'nook'} was not found; install Nook, or set its path in the preferences of the add-on")
     return found
 
 
-# What slices of work yield while a command runs.
+# The value that work yields between slices while a command runs.
 WAITING = object()
 
 
 class Run:
-    """A command that runs; a thread reads what it prints, so that Blender does not wait for it."""
+    """A running command. A thread reads its output, so that Blender does not wait for the command."""
 
     def __init__(self, arguments):
         self.arguments = arguments
@@ -55,7 +55,7 @@ class Run:
                 self.last_line = line
 
     def is_done(self):
-        """True if the command has ended; last_line has its last output."""
+        """Returns whether the command has ended. `last_line` has the last line of its output."""
         done = self._process.poll() is not None
         if done:
             for reader in self._readers:
@@ -68,13 +68,13 @@ class Run:
         self.is_done()
 
     def cancel(self):
-        """Ends the command if it still runs; it leaves no half file."""
+        """Ends the command if it still runs. The command does not leave incomplete files."""
         if self._process.poll() is None:
             self._process.terminate()
         self.wait()
 
     def check(self):
-        """Raises what the command said if it failed."""
+        """Raises an error with the command's message if the command failed."""
         code = self._process.returncode
         if code != 0:
             raise Fault(f"nook failed with exit code {code}: {self.errors or self.last_line or 'it said nothing'}")

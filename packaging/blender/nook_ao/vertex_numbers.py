@@ -1,9 +1,10 @@
-"""Which of Blender's vertices each vertex of a glTF file is.
+"""Finds out which vertex in Blender each vertex of a glTF file is.
 
-A file splits a vertex if its corners differ in normal or UV, and stores the vertices in another order. Positions alone do not tell
-which is which: the two sides of a cloth and the shells of hair lie at one place. Each vertex therefore carries its number as an
-attribute through the file. A float holds whole numbers up to 2^24 exactly, and the attribute is the same at all corners of a
-vertex, so that it splits nothing.
+A file splits a vertex if its corners differ in normal or UV, and stores the vertices in another order.
+Positions alone are ambiguous, because the two sides of a cloth or the shells of hair may have the same
+positions. Each vertex in the file therefore stores its index in Blender as an attribute. A float represents
+integers up to 2^24 exactly. All corners of a vertex have the same attribute value, so it does not split
+vertices.
 """
 import json
 import struct
@@ -13,7 +14,7 @@ import numpy as np
 from .faults import Fault
 
 NAME = "NOOK_VERTEX"
-# In the extras of the file: whose it is.
+# The key in the file's `extras` that identifies the character to which the file belongs.
 KEY = "nook_character"
 LARGEST = 1 << 24
 GLB_MAGIC, JSON_CHUNK, BINARY_CHUNK = 0x46546C67, 0x4E4F534A, 0x004E4942
@@ -22,7 +23,7 @@ TRIANGLES, TRIANGLE_FAN = 4, 6
 
 
 def read_glb(data):
-    """The JSON and the binary chunk of a .glb file."""
+    """Returns the JSON and the binary chunk of a .glb file."""
     chunks, at = {}, 12
     if len(data) < 12 or struct.unpack_from("<I", data)[0] != GLB_MAGIC:
         raise Fault("the exported file is no .glb")
@@ -34,7 +35,7 @@ def read_glb(data):
 
 
 def read_scalars(document, binary, accessor_number):
-    """The values of an accessor of single numbers."""
+    """Returns the values of a scalar accessor."""
     accessor = document["accessors"][accessor_number]
     view = document["bufferViews"][accessor["bufferView"]]
     kind = np.dtype(FORMATS[accessor["componentType"]])
@@ -44,7 +45,8 @@ def read_scalars(document, binary, accessor_number):
 
 
 def read_vertex_numbers(data):
-    """The numbers of a file's vertices, in Nook's order: mesh nodes in the order of the file, their primitives one after another."""
+    """Returns the Blender indices of a file's vertices, in Nook's order. The mesh nodes are in the order of
+    the file, and the primitives of a mesh follow one after another."""
     document, binary = read_glb(data)
     numbers = []
     for node in document.get("nodes", []):
@@ -53,7 +55,7 @@ def read_vertex_numbers(data):
         for primitive in document["meshes"][node["mesh"]]["primitives"]:
             if not TRIANGLES <= primitive.get("mode", TRIANGLES) <= TRIANGLE_FAN:
                 continue
-            # Exporters put one underscore or two before the names of their users' attributes.
+            # Exporters put one or two underscores before the names of custom attributes.
             found = [a for name, a in primitive["attributes"].items() if name.strip("_").upper() == NAME]
             if not found:
                 raise Fault(f"the exported file has no attribute {NAME}; this exporter of glTF writes no attributes, use that of Blender 3.4 or newer")
@@ -64,7 +66,8 @@ def read_vertex_numbers(data):
 
 
 def read_key(path):
-    """Whose file a .glb is; None where the add-on did not write it, or there is none."""
+    """Returns the key of the character to which a .glb file belongs. Returns None if the add-on did not write
+    the file, or if it does not exist."""
     try:
         with open(path, "rb") as file:
             head = file.read(20)
