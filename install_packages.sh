@@ -7,10 +7,12 @@ if ! command -v dpkg-query > /dev/null; then
   echo "install_packages.sh: this is no Debian; install the equivalents of $list by hand" >&2
   exit 0
 fi
+# Packages of other origin may provide a listed one and conflict with it, as NodeSource's nodejs does with npm.
+provided=$(dpkg-query -W -f '${db:Status-Status} ${Provides}\n' | sed -n 's/^installed //p' | tr ',' '\n' | sed 's/(.*//; s/ //g')
 missing=""
 for package in $(sed 's/#.*//' "$list"); do
   state=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)
-  [ "$state" = installed ] || missing="$missing $package"
+  [ "$state" = installed ] || printf '%s\n' "$provided" | grep -qxF "$package" || missing="$missing $package"
 done
 [ -n "$missing" ] || exit 0
 as_root=""
