@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the package and the page, installs the package into an empty folder, and tests the page in Chromium without a window. Then it
-# follows docs/guide/three.md and the examples for bundlers in docs/web.md, which takes npm's registry.
+# follows docs/guide/three.md and the examples for bundlers in docs/web.md, and tests samples/hosts/three, which takes npm's registry.
 #   samples/web/test.sh [--quick] [FOLDER]     --quick: 5 s of frames in place of 60; FOLDER as for build.sh
 # Pictures and results.json go to FOLDER/test. The exit status is 0 if every check holds.
 set -euo pipefail
@@ -35,8 +35,14 @@ node "$here/faults_test.mjs" "$folder/site"
 # These need npm's registry: axe-core, and what the guides of docs/ name.
 if ! (cd "$scratch" && npm install --silent --no-audit --no-fund --no-package-lock --no-save axe-core@4); then
   echo "samples/web/test.sh: npm cannot install axe-core@4 from $(npm config get registry). NOT TESTED: axe-core's findings, the first" >&2
-  echo "picture on a slow line, four bundlers, three.js from an empty folder. Everything before has passed." >&2
+  echo "picture on a slow line, four bundlers, three.js from an empty folder, the page of samples/hosts/three. Everything before has passed." >&2
   exit 1
 fi
 node "$here/visit_test.mjs" "$folder/site" "$scratch/node_modules/axe-core/axe.min.js"
 node "$here/guides_test.mjs" "$folder"/nook-web-*.tgz "$folder/models/mannequin.glb" "$folder/models/mannequin.nook" "$build/bakers/tool"
+
+# The page of samples/hosts/three, with the same package and bake.
+mkdir -p "$folder/three/site/data"
+cp "$folder/models/mannequin.glb" "$folder/three/site/data/character.glb"
+cp "$folder/models/mannequin.nook" "$folder/three/site/data/character.nook"
+NOOK_WEB_DIR=$folder NOOK_BUILD_DIR=$build "$root/samples/hosts/three/test.sh" "$folder/three"
