@@ -18,8 +18,8 @@
 
 namespace nook::bake {
 
-// Hashes numbers by their bits, little-endian, and lists with their length, so that no two sequences of
-// values give the same bytes.
+// Hashes numbers by their bits (little-endian). A list is hashed together with its length, so that no two
+// sequences of values give the same bytes.
 class ContentHash {
  public:
   template <class Number>

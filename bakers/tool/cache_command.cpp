@@ -39,7 +39,7 @@ void add_cache_prune(Command cache) {
       "prune", "remove results that were not used for long, and the oldest ones above a size");
   const auto options = std::make_shared<Options>();
   command.add_option("--cache", options->cache, "the folder; default NOOK_CACHE");
-  command.add_option("--older", options->days, "remove what was not used for so many days")
+  command.add_option("--older", options->days, "remove what was not used in this number of days")
       .check(in_range(0.0, 36500.0));
   command
       .add_option("--size", options->megabytes,

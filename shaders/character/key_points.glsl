@@ -8,7 +8,8 @@ const uint nook_tile_size = uint(NOOK_GROUP_SIZE);
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
 // The stream has two elements for each caster: (the caster's origin minus the receiver's origin, index of the
-// first sphere) and (number of spheres). It has one element for each exact sphere: centre, 1 / radius.
+// first sphere) and (number of spheres). For each exact sphere, the stream also has one element: (centre,
+// 1 / radius).
 layout(std430, binding = NOOK_BINDING_SPHERES) readonly buffer NookSpheres {
   vec4 nook_sphere[];  // two for each: centre, 1 / radius; caster weight
 };

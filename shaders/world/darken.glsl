@@ -157,8 +157,8 @@ NookFarTexel nook_far_texel(ivec2 texel);
 #define nook_far_texel nook_fetch_far
 #endif
 
-// Returns the openness that far bodies leave, interpolated from the four texels around this pixel. A texel
-// has a large weight if its point is near the plane of the pixel's surface. Alpha is 0 if no point is near
+// Returns the share of light that far bodies do not block, interpolated from the four texels around this
+// pixel. A texel has a large weight if its point is near the plane of the pixel's surface. Alpha is 0 if no point is near
 // the plane.
 vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
   ivec2 low = pixel / NOOK_FAR_STEP, last = (nook_screen_size - 1) / NOOK_FAR_STEP;

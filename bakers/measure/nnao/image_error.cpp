@@ -10,7 +10,7 @@ namespace {
 constexpr int reach = 5;
 constexpr double sigma = 1.5;
 
-// Returns Gaussian means; the windows are cut off at the borders.
+// Returns for each pixel the mean around it with Gaussian weights. Windows are cut off at the borders.
 std::vector<double> window_means(const std::vector<double>& image, int width, int height) {
   double weight[reach + 1];
   for (int i = 0; i <= reach; ++i) weight[i] = std::exp(-0.5 * i * i / (sigma * sigma));

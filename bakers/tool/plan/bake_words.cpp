@@ -47,7 +47,7 @@ std::string text_of(const Manifest& m, const std::string& place, const Json& val
                value.type_name() + ")");
   const std::string text = expanded(value.get<std::string>(), path, false);
   if (text.find_first_of("\n\r") != std::string::npos)
-    refuse(m, place, "a text with a line break does not fit into tasks.txt; remove it");
+    refuse(m, place, "a text has a line break, which tasks.txt cannot store; remove the line break");
   return text;
 }
 

@@ -192,9 +192,10 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  * sphere that covers the share f of its receiver's hemisphere takes away f * rho of the light instead of f.
  * For each channel, rho is the mean radiance of the lobes behind the sphere divided by their mean radiance in
  * the receiver's hemisphere. All spheres of a linked instance share one rho; the ground uses the rho of the
- * half-space below its plane. The result is a colour for each vertex. In albedo / pi * E * AO, use this
- * colour in place of AO; E is the irradiance of the same lobes. Under constant light, the colour is equal to
- * AO. The CPU and the GPU update both compute it; nook_gl.h shows how to use it in a shader. */
+ * half-space below its plane. The result is a colour for each vertex. If your shader computes
+ * albedo / pi * E * AO, replace AO by this colour; E is the irradiance of the same lobes. Under constant
+ * light, the colour is equal to AO. The CPU and the GPU update both compute it; nook_gl.h shows how to use it
+ * in a shader. */
 
 /* Sets the light of an instance for the next updates. Pass at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
  * from nook_probe_read_lobes at the instance's position; the call copies them. `lobe_count` 0 or `lobes` NULL

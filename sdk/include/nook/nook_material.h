@@ -8,8 +8,8 @@
  *     radiance:      sum_a light_basis[light, a] L_a, for red, green and blue, and again for each light.
  * L_a and radiance are linear in the images, so mipmaps give the exact mean over a pixel's footprint. A
  * neural material (`--method neural`) replaces the BTF's tensor by a small network over features of its
- * texels. The same calls load, evaluate and draw it. Radiance transfer does not accept it, because its
- * radiance is not a sum of light modes. Its mipmaps average features, not radiance. Directions are unit
+ * texels. You load, evaluate and draw it with the same calls. Radiance transfer does not accept it, because
+ * its radiance is not a sum of light modes. Its mipmaps average features, not radiance. Directions are unit
  * vectors in tangent space that point away from the surface: x along u, y along v, z along the normal. */
 #ifndef NOOK_MATERIAL_H
 #define NOOK_MATERIAL_H

@@ -76,8 +76,9 @@ typedef struct nook_probe_fit_desc {
   float up[3];
   /* The number of lobes without the ambient term; 1 to 64, or 63 with the ambient term. Default 12. */
   uint32_t lobe_count;
-  /* The sharpness of all lobes if sharpnesses is NULL, 0 to 10000. With 0 (default), Nook chooses a sharpness
-   * at which neighbouring lobes overlap equally for any lobe_count, such as 6 for 12 lobes on the sphere. */
+  /* One sharpness for all lobes, 0 to 10000, used if `sharpnesses` is NULL. With 0 (default), Nook chooses
+   * one at which neighbouring lobes overlap equally for any lobe_count, such as 6 for 12 lobes on the sphere.
+   */
   float sharpness;
   /* lobe_count unit directions (to 1e-3), which the call copies. NULL (default): a Vogel spiral. */
   const float* axes;
@@ -134,8 +135,8 @@ typedef struct nook_probe_fit_info {
   uint32_t function_count;
   /* The numbers of samples that the fit used and skipped. `skipped` is the sum of the next three counts. */
   uint64_t samples, skipped;
-  /* The fit skipped this many samples because the direction is not finite, not of unit length or outside the
-   * hemisphere. It skipped others because radiance is not finite, or the weight is negative or not finite. */
+  /* The fit skipped this many samples because of their direction (not finite, not of unit length or outside
+   * the hemisphere), their radiance (not finite), and their weight (negative or not finite). */
   uint64_t skipped_direction, skipped_radiance, skipped_weight;
   /* The sum of the weights of the used samples. */
   double weight;

@@ -9,8 +9,9 @@
 namespace nook {
 namespace {
 
-// A candidate faces another side if its cosine is smaller than the best one by this much. Smaller differences
-// are ignored, because hosts smooth normals, and bend them on cards and leaves.
+// If a candidate's cosine is below the best candidate's cosine by at least this value, the candidate belongs
+// to another side of the surface. Smaller differences are ignored, because hosts smooth normals, and bend
+// them on cards and leaves.
 constexpr float other_side = 0.7f;
 
 // A host normal within 5 degrees of the model's normal is treated as the same normal. This allows for the

@@ -34,7 +34,8 @@ std::uint32_t cell_terms(const ClusteredTensor& tensor);
 ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views, std::uint32_t side,
                      Memory* memory);
 
-// One of the four halves of a cell. The first two divide the cell along x, the other two along y.
+// One of the four halves of a cell. The first two are the halves at low x and high x. The other two
+// are the halves at low y and high y.
 enum class CellHalf : std::uint32_t { left = 0, right = 1, lower = 2, upper = 3 };
 
 // Returns the step (-1, 0 or 1) to the cell with which a point in that half of a cell blends. If the cell on

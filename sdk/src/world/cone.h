@@ -6,7 +6,8 @@
 // part's radius. In this plane, the part is the unit disc, and a capsule is the convex hull of two discs. If
 // the capsule is wider than the part, it is treated as a half-plane. The border of this half-plane is as far
 // from the part's axis as the capsule's round edge. If the capsule is narrower, it is treated as a rectangle
-// of the same area, and its share is the product of the shares along and across it. In each part, the open
+// of the same area. The share of the part that it hides is then the product of two shares: one along the
+// rectangle and one across it. In each part, the open
 // shares of all capsules are multiplied together, as if the capsules covered the part independently. The open
 // share of the cone is the mean over its parts. So the shares of capsules that cover different parts add up.
 // Capsules that fully cover the same part do not darken it twice.

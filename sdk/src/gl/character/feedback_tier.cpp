@@ -126,7 +126,7 @@ void FeedbackTier::update(Scene& scene) {
   FeedbackScene& placed = *placed_scene(scenes_, scene);
   placed.notice_lights();
   nook::update(scene);
-  // If an upload fails, the next update makes up for this one.
+  // If an upload fails, the next update uploads these instances again.
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
     placed.placements[slot].evaluated &= !scene.instances[slot].plan.due;
   placed.lights.upload(device_, scene);
