@@ -1,8 +1,8 @@
 # Fails when a source of the library uses what one compiler has only: attributes, builtins and pragmas of GCC and Clang, which
-# MSVC lacks. sdk/src/core/compiler.h wraps those that are needed; nook.h has the export macro, and processor.cpp queries
+# MSVC lacks. sdk/src/core/compiler.h and prefetch.h wrap those that are needed; nook.h has the export macro, and processor.cpp queries
 # the processor.
 cmake_minimum_required(VERSION 3.25)
-set(excepted sdk/src/core/compiler.h sdk/include/nook/nook.h sdk/src/core/processor.cpp)
+set(excepted sdk/src/core/compiler.h sdk/src/core/prefetch.h sdk/include/nook/nook.h sdk/src/core/processor.cpp)
 set(extensions "__attribute__|__builtin_|__extension__|__typeof__|__int128|__PRETTY_FUNCTION__|__asm__|\\[\\[(gnu|clang)::|#[ ]*pragma[ ]+(GCC|clang)|<(unistd|sys/|pthread|strings|alloca)")
 set(violations "")
 file(GLOB_RECURSE files RELATIVE ${ROOT} ${ROOT}/sdk/*.h ${ROOT}/sdk/*.hpp ${ROOT}/sdk/*.cpp ${ROOT}/sdk/*.inl
