@@ -27,8 +27,8 @@ std::uint32_t not_below(Float a, Float b) {
   return ~std::uint32_t(bits(less(a, b))) & all;
 }
 
-// Normalises directions by two Newton steps that start at 1. Returns a bit mask of the directions whose length
-// was not close to 1.
+// Normalises directions by two Newton steps that start at 1. Returns a bit mask of the directions whose
+// length was not close to 1.
 std::uint32_t make_unit(const float* up, float* px, float* py, float* pz) {
   const Float x = load(px), y = load(py), z = load(pz);
   const Float length2 = fma(x, x, fma(y, y, z * z));
