@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <tuple>
 
@@ -148,9 +150,30 @@ std::string fault_of_path(const std::string& path) {
              : "";
 }
 
+// Refuses what a conversion to an unsigned type would change without a word: it takes -1 as the largest number,
+// and numbers that are too large as well.
+std::string fault_of_whole_number(const std::string& text, std::uint64_t largest) {
+  std::uint64_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error == std::errc() && stop == end && number <= largest) return "";
+  return "\"" + text + "\" is not a whole number from 0 to " + std::to_string(largest);
+}
+
 template <class T>
 constexpr bool is_path =
     std::is_same_v<T, std::filesystem::path> || std::is_same_v<T, std::vector<std::filesystem::path>>;
+// The largest number of an option that takes whole numbers without a sign, 0 for other options.
+template <class T>
+constexpr std::uint64_t largest_number = 0;
+template <>
+constexpr std::uint64_t largest_number<unsigned> = std::numeric_limits<unsigned>::max();
+template <>
+constexpr std::uint64_t largest_number<std::uint64_t> = std::numeric_limits<std::uint64_t>::max();
+template <class T>
+constexpr std::uint64_t largest_number<std::optional<T>> = largest_number<T>;
+template <class T>
+constexpr std::uint64_t largest_number<std::vector<T>> = largest_number<T>;
 
 }  // namespace
 
@@ -194,6 +217,9 @@ requires(!std::is_enum_v<T>) Option Command::add_option(const char* names, T& va
 const {
   const Option option(app_->add_option(names, value, help));
   if constexpr (is_path<T>) option.check([](const std::string& path) { return fault_of_path(path); });
+  if constexpr (largest_number<T> != 0) {
+    option.check([](const std::string& text) { return fault_of_whole_number(text, largest_number<T>); });
+  }
   return option;
 }
 template Option Command::add_option(const char*, std::string&, const std::string&) const;

@@ -140,6 +140,14 @@ TEST_CASE("bad arguments exit with 2, name the fault and write nothing") {
     run = folder.run(small_bake(in, out, {"--split", "families"}));
     expected = "all clips (3) begin with the same word";
   }
+  SECTION("a negative seed") {
+    run = folder.run(small_bake(in, out, {"--seed", "-1"}));
+    expected = "--seed: \"-1\" is not a whole number from 0 to 18446744073709551615";
+  }
+  SECTION("a seed above 64 bits") {
+    run = folder.run(small_bake(in, out, {"--seed", "18446744073709551616"}));
+    expected = "\"18446744073709551616\" is not a whole number from 0 to 18446744073709551615";
+  }
   INFO(run.error);
   CHECK(run.exit_code == 2);
   CHECK(has(run.error, expected));
