@@ -100,10 +100,10 @@ struct PoseBatch {
   float* ao = nullptr;
 };
 
-// A run of poses that one job evaluates.
+// Consecutive poses, which one job evaluates.
 struct PoseRun {
   std::uint32_t begin = 0, end = 0;
-  std::array<PoseNotes, 3> notes;  // the notes of the first pose with each topic
+  std::array<PoseNotes, 3> notes;  // for each topic, the notes of the first pose that has one
   std::exception_ptr failure;      // the failure of the pose at `begin`; `begin` is incremented after each
                                    // pose that succeeds
 };
@@ -115,8 +115,7 @@ void keep_notes(PoseRun& run, const PoseNotes& notes) {
     if ((notes.topics() >> t & 1) && !run.notes[t].topics()) run.notes[t] = notes;
 }
 
-// Returns the distance between poses in bytes. By default, a pose is as long as all transforms that the host
-// gave.
+// Returns the distance between poses in bytes. The default is the size of all transforms of one pose.
 std::size_t batch_stride(const CharacterModel& model, PoseSource source, std::size_t pose_stride,
                          std::uint32_t pose_count) {
   check_pose_source(model, source);
@@ -126,7 +125,7 @@ std::size_t batch_stride(const CharacterModel& model, PoseSource source, std::si
   return checked_stride("pose_stride", pose_stride, pose_count, source.stride * source.given_count);
 }
 
-// Makes few, long runs, because each run needs its own scene.
+// Divides the poses into a few long runs, because each run needs its own scene.
 std::uint32_t run_count(const Parallel& parallel, std::uint32_t pose_count) {
   constexpr std::uint32_t min_poses = 8, max_runs = 64;
   return parallel.run ? std::clamp(pose_count / min_poses, 1u, max_runs) : 1;
@@ -150,7 +149,8 @@ void evaluate_run(const PoseBatch& batch, PoseRun& run, nook::Memory* memory) {
   }
 }
 
-// Throws the failure of the first pose that was refused, and adds the index of the pose to the message.
+// If a pose was refused, throws the failure of the first such pose. The message also contains the index of
+// this pose.
 void rethrow_first(std::span<const PoseRun> runs) {
   for (const PoseRun& run : runs) try {
       if (run.failure) std::rethrow_exception(run.failure);

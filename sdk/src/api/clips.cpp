@@ -44,7 +44,7 @@ Mat3x4 place_of(const float* place_3x4) {
   return place;
 }
 
-// Calls put(place, ao) for each file vertex.
+// Calls put(place, ao) for each file vertex. `place` is the address of the vertex in `out`.
 template <class Put>
 void write_ao(const LoadedClips& clips, const FrameMix& mix, void* out, std::size_t stride, Put&& put) {
   std::array<float, ClipSet::max_ao_modes> weights;
@@ -101,7 +101,7 @@ Mat3x4 checked_bone(const LoadedClips& clips, const FrameMix& mix, const Mat3x4&
   return matrix;
 }
 
-// A clip's matrices are even, so only the place can be uneven.
+// The bones of a clip have a uniform scale and no shear. So notes can only be about the place.
 void log_place(nook_clips_s& clips, const char* function, const Mat3x4& place) {
   const CharacterModel& model = clips.model->model;
   api::log_pose(*clips.context, function, model, notes_of_place(model, place), clips.reported);

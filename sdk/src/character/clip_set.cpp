@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t max_vertices = 1u << 24, max_bones = 65535;
 constexpr float max_duration_s = 1e6f;
-// AO is within [0, 1]; it is a sum of products of modes and weights, which are far below this bound.
+// AO in [0, 1] is a sum of products of modes and weights. So the scales of modes are far below this bound.
 constexpr float max_ao_scale = 1e4f;
 
 void check_count(std::uint32_t got, std::uint32_t low, std::uint32_t high, const char* what,
@@ -96,12 +96,14 @@ void check_clip_set(const ClipSet& set, nook_result code) {
 
 namespace {
 
-// Returns the vertices that are farthest along some directions. They reveal a different order of the welded
-// vertices. Vertex numbers are the same on every machine, while positions may differ in the last digit.
+// Returns the index of the farthest vertex along each of several directions. If two models have the same
+// welded vertices in a different order, these indices differ. Indices are the same on every machine, while
+// positions may differ in the last digit.
 std::array<std::uint32_t, 16> farthest_vertices(const CharacterModel& model) {
   std::array<std::uint32_t, 16> farthest{};
   for (std::size_t d = 0; d < farthest.size(); ++d) {
-    // The directions lie on a spiral, which has no symmetry that the two halves of a body could share.
+    // The directions lie on a spiral, which is not symmetric. So on a symmetric body, mirrored vertices are
+    // not equally far along a direction.
     const double z = 1 - (2 * double(d) + 1) / double(farthest.size()), r = std::sqrt(1 - z * z),
                  turn = 2.399963229728653 * double(d) + 0.3;
     const double x = r * std::cos(turn), y = r * std::sin(turn);
@@ -149,7 +151,7 @@ void check_clip_model(const ClipSet& set, const CharacterModel& model) {
 
 namespace {
 
-// The number as the file has it, without its sign.
+// Returns the bits of a signed number as an unsigned number, which the file stores.
 std::uint32_t unsigned_bits(std::int8_t value) {
   return static_cast<std::uint8_t>(value);
 }
@@ -200,7 +202,7 @@ std::vector<std::byte> names_of(const ClipSet& set) {
 }
 
 void read_names(ByteReader in, ClipSet& set) {
-  // A clip without a name takes six bytes.
+  // The shortest clip takes six bytes. It has no name.
   const std::uint32_t count = in.check_count(in.varint(), 48, "clips");
   if (count > ClipSet::max_clips)
     throw Failure(NOOK_ERROR_BAD_FILE, "the number of clips is out of range (got %u, need 1 to %u)", count,

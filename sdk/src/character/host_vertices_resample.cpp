@@ -116,7 +116,8 @@ Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, std::span
   return shares;
 }
 
-// The weights of one vertex in the linear layer, summed over its shares.
+// The weights of a key point for one vertex of the new mesh. They are summed over the baked vertices that the
+// new vertex interpolates.
 struct Influence {
   std::uint16_t key_point = 0;
   float alpha = 0, blend = 0;

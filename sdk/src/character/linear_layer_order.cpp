@@ -97,7 +97,7 @@ class Window {
   const CharacterModel& model_;
   std::span<const std::uint32_t> vertices_;
   Vector<Indices> users_;          // the vertices that use each key point
-  Vector<std::uint8_t> in_block_;  // for each key point
+  Vector<std::uint8_t> in_block_;  // for each key point, 1 if it is in the block
   Indices missing_;                // for each vertex, the number of its key points that are not in the block
   Vector<std::uint8_t> is_taken_, is_candidate_;
   Vector<std::uint16_t> block_key_points_;

@@ -39,12 +39,13 @@ AlignedArray<std::int8_t> in_blocks(const ClipSet& set, const LoadedModel& model
   return out;
 }
 
-// Returns the nearest matrix with one scale; the image of the centre stays. It computes the polar factor by
-// Newton's iteration (Higham 1986, "Computing the Polar Decomposition", equation 3.3). Mixed poses are close
-// to it and take a few steps; if the iteration does not converge, the general form takes over.
+// Returns the nearest matrix that has a uniform scale and no shear. The image of `centre` does not change.
+// The polar factor is computed by Newton's iteration (Higham 1986, "Computing the Polar Decomposition",
+// equation 3.3). A mix of two poses is close to its polar factor, so a few steps are enough. If the iteration
+// does not converge, a slower method that always works is used.
 Mat3x4 evened(const Mat3x4& matrix, Vec3 centre) {
   constexpr int max_steps = 12;
-  constexpr float converged = 1e-6f;  // squared; for rows of unit length
+  constexpr float converged = 1e-6f;  // squared change in a step, for rows of unit length
   const float* const m = matrix.m;
   const Vec3 given[3] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
   const float mean =
@@ -81,8 +82,9 @@ float mixed_weight(const FrameTable<std::int16_t>& table, const FrameMix& mix, s
   return first + mix.share * (table.frame_weight(mix.second, k) - first);
 }
 
-// Returns the time modulo the duration, which is a float. The product of a float and a number of turns below
-// 2^21 has no rounding, so that the difference is what fmod gives, in a fraction of the time.
+// Returns `time` modulo `duration`. The value of `duration` is exactly representable as a float. So its
+// product with fewer than 2^21 turns is exact, and the difference equals the result of fmod. Computing it
+// takes a fraction of the time of fmod.
 double looped(double time, double duration) {
   const double turns = std::floor(time / duration);
   const double rest = time - turns * duration;
@@ -130,7 +132,8 @@ void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t fir
 
 namespace {
 
-// Returns the sum of the modes, which is neither even nor at a place.
+// Returns the weighted sum of the modes. This matrix may still have shear and an uneven scale, and the place
+// of the instance is not applied yet.
 Mat3x4 mixed_bone(const ClipSet& set, const FrameMix& mix, std::size_t bone) noexcept {
   constexpr float step = 1.0f / FrameTable<std::int16_t>::max_mode;
   std::array<float, pose_rows_per_bone> row{};
@@ -150,7 +153,7 @@ Mat3x4 mixed_bone(const ClipSet& set, const FrameMix& mix, std::size_t bone) noe
   return matrix;
 }
 
-// The bones of a frame as the table has them, and even.
+// The bones of a frame: `mixed` as the table gives them, and `even` with a uniform scale and without shear.
 struct FrameBones {
   explicit FrameBones(std::size_t count, Memory* memory) : mixed(memory), even(memory) {
     mixed.resize(count);
@@ -206,9 +209,10 @@ Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place,
   return place * evened(mixed_bone(set, mix, bone), set.bones[bone].centre);
 }
 
-// A bone's rotation shrinks by at most 1 - c between two frames, where c is the cosine of half the angle. At
-// a share s this is 1 - sqrt(1 - 4 s (1 - s) (1 - c^2)), which is at most 4 s (1 - s) times its value at 1/2.
-// The rest of a bound is convex: no mix of two frames has more than the mix of their bounds.
+// A linear mix of two rotations is shorter than a rotation. Let c be the cosine of half the angle between the
+// two frames. At the share s of the second frame, the mix loses 1 - sqrt(1 - 4 s (1 - s) (1 - c^2)) of its
+// length. This is at most 4 s (1 - s) (1 - c), and equal to it at s = 1/2. The other parts of a bound are
+// convex: for any mix of two frames, they are at most the same mix of the two frames' bounds.
 PoseBound bound_of_mix(const LoadedClips& clips, const FrameMix& mix) noexcept {
   const FrameBound &first = clips.frame_bound[mix.first], &second = clips.frame_bound[mix.second];
   const float s = mix.share;

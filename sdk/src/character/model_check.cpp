@@ -176,7 +176,7 @@ void check_file_order(const CharacterModel& model, const Check& check) {
   check.sized("file vertices", model.file_to_welded.size(), next);
 }
 
-// The 3x3 part must be invertible, relative to its own size.
+// Returns true if the 3x3 part is invertible. The threshold is relative to the length of its columns.
 bool is_invertible(const Mat3x4& matrix) {
   const float* m = matrix.m;
   const Vec3 x{m[0], m[4], m[8]}, y{m[1], m[5], m[9]}, z{m[2], m[6], m[10]};

@@ -124,7 +124,7 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
   model.alpha.assign(std::size_t(vertices) * influences, 0.0f);
   model.blend.assign(std::size_t(vertices) * influences, 0.0f);
   model.bias.reserve(vertices);
-  std::array<std::uint32_t, max_references> counts{};  // numbers of key points of the earlier vertices
+  std::array<std::uint32_t, max_references> counts{};  // key-point counts of the earlier vertices
   for (std::uint32_t i = 0; i < vertices; ++i) {
     const std::uint32_t count = in.bits(Bits::entry_count) + 1;
     if (count > influences)

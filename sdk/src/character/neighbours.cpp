@@ -14,7 +14,7 @@ using Node = NeighbourTree::Node;
 // testing fewer points saves.
 constexpr std::size_t max_leaf_points = 8;
 
-// Returns how often the range must be halved until each part fits into a leaf.
+// Returns how many times the range must be halved until each part fits into a leaf.
 std::uint32_t depth_of(std::size_t points) {
   std::uint32_t depth = 0;
   while ((points - 1) >> depth >= max_leaf_points) ++depth;

@@ -169,8 +169,8 @@ std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, con
   return fitting;
 }
 
-// A vertex at the wrong place that would be right with another bone's transform. It follows almost only one
-// bone.
+// A vertex at a wrong place, which follows almost only one bone. With another bone's transform, it would be
+// at the right place.
 struct Misplaced {
   std::uint32_t bone = 0;
   std::int64_t transform = -1;

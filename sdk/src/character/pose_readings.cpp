@@ -46,7 +46,7 @@ void add_skins(const CharacterModel& model, const PoseSource& given, Memory* mem
                     : given.kind == NOOK_POSE_REST_TO_WORLD ? NOOK_POSE_FAULT_NO_BIND
                                                             : NOOK_POSE_FAULT_KIND;
     out.push_back(reading);
-    // The matrices may be this skin's, but in the joint order of the skin that the host named.
+    // Perhaps the host passed the matrices of this skin, but in the joint order of the skin that it named.
     if (given.kind != NOOK_POSE_SKINNING || !given.transform_of_bone.empty()) continue;
     reading.map = map_of_skin(model, given.skin, memory);
     out.push_back(reading);

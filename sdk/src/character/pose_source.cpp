@@ -180,8 +180,8 @@ std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone
 
 namespace {
 
-// True for small deviations, which come from exporters and from rounding to floats. Such matrices are not
-// projected.
+// Returns true if the matrix has almost a uniform scale and almost no shear. Exporters and rounding to floats
+// cause such small deviations. The caller then uses the matrix unchanged.
 bool is_kept(const BoneAxes<double>& axes) {
   constexpr double kept = 1e-4;
   const double shortest = std::min({axes.squared[0], axes.squared[1], axes.squared[2]});
@@ -193,7 +193,7 @@ Affine nearest_with_one_scale(const Affine& matrix, const std::array<double, 3>&
   return nearest_mirroring_similarity(matrix, fixed).matrix;
 }
 
-// Returns whether the matrix of the bone is uneven.
+// Returns true if the bone's matrix has shear or an uneven scale.
 bool convert_bone(const CharacterModel& model, const PoseSource& source, std::size_t bone,
                   std::uint32_t index, std::span<Mat3x4> bones, PoseNotes& notes) {
   const Affine matrix = bone_matrix(model, source, bone, read_transform(source, index));

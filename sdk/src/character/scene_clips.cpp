@@ -60,7 +60,7 @@ bool is_within(const PoseBound& bound) {
          is_near(bound.radius) && bound.scale <= max_pose_scale;
 }
 
-// First asks for the bound of all frames, which is at hand and nearly always small enough.
+// First tests the common bound of all frames. It is already known, and is nearly always small enough.
 void check_bound(const LoadedClips& clips, const nook_instance_clip& given, std::size_t index) {
   const Mat3x4 place = place_of(given);
   const float scale = std::sqrt(axes_of(place).longest_squared);
@@ -114,13 +114,14 @@ void take_clip(Scene& scene, const Ref<const LoadedClips>& clips, const nook_ins
   ++input.pose_revision;
 }
 
-// A crowd is larger than the caches, and an instance takes most of its time to arrive.
+// Prefetches a later instance. A crowd does not fit into the caches, so most of the time of an instance would
+// be spent waiting for memory.
 void fetch_ahead(const Scene& scene, std::span<const nook_instance_clip> given, std::size_t index) noexcept {
   constexpr std::size_t ahead = 8, line = 64;
   if (index + ahead >= given.size()) return;
   const std::size_t slot = (given[index + ahead].instance & max_slots) - std::size_t{1};
   if (slot >= scene.instances.size()) return;
-  // set_clips reads and writes what comes before the bones.
+  // set_clips accesses only the fields in front of `bones`.
   const Instance& instance = scene.instances[slot];
   const auto* const end = reinterpret_cast<const std::byte*>(&instance.input.bones);
   for (const auto* at = reinterpret_cast<const std::byte*>(&instance); at < end; at += line) prefetch(at);

@@ -186,7 +186,8 @@ void remove_instance(Scene& scene, nook_instance_id id) {
 
 namespace {
 
-// Updates everything that depends on the bone matrices. All new matrices must be even.
+// Updates everything that depends on the bone matrices. All new matrices must have a uniform scale and no
+// shear.
 void finish_pose(Instance& instance, float longest_squared) {
   derive_bound(instance, longest_squared);
   ++instance.input.pose_revision;

@@ -198,7 +198,7 @@ void update(Scene& scene) noexcept {
 
 namespace {
 
-// Where the AO of an instance without casters comes from.
+// The source of the AO that an instance has without casters.
 enum class Self { none, shadow, clip };
 
 Self self_of(const Scene& scene, const Instance& instance) {
@@ -241,7 +241,7 @@ void for_each_chunk(const LoadedModel& loaded, const float* open_bias, void* out
   }
 }
 
-// The weights of an instance's clip.
+// The weights of the AO modes for the current frame of an instance's clip.
 using ClipWeights = std::array<float, ClipSet::max_ao_modes>;
 
 void mix_weights(const Instance& instance, Self self, ClipWeights& weights) {
@@ -249,7 +249,7 @@ void mix_weights(const Instance& instance, Self self, ClipWeights& weights) {
   if (self == Self::clip) mix_ao_weights(clip.clips->set, clip.mix, weights.data());
 }
 
-// Fills `own` for the slots of the chunk.
+// Decodes the clip's AO for the slots of the chunk into `own`.
 void decode_clip(const Instance& instance, const ClipWeights& weights, const LinearView& chunk,
                  std::uint32_t first_slot, ChunkAo& own) {
   decode_ao(*instance.input.clip.clips, weights.data(), first_slot, chunk.block_count * linear_block_vertices,

@@ -119,7 +119,7 @@ nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instanc
     need(instances, "instances");
     need(target, "target");
     check_target(*target, count);
-    // Looks up every instance before anything is written, so that a bad id changes nothing.
+    // Looks up all instances before it writes anything. So if an id is invalid, nothing is changed.
     for (uint32_t i = 0; i < count; ++i) gl->characters->place(scene->scene, instances[i]);
     gl->guarded(gl::output_users(gl->device.gl), [&] {
       for (uint32_t i = 0; i < count; ++i) {

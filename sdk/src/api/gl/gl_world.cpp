@@ -26,8 +26,8 @@ unsigned world_users(const gl::Functions& gl, bool computes) {
 
 }  // namespace
 
-// Its OpenGL objects can outlive the handle nook_gl, because this object holds a reference to the owner of
-// nook_gl.
+// The OpenGL objects of a world pass can outlive the handle nook_gl, because the pass holds a reference to
+// the owner of nook_gl.
 struct nook_world_s : RefCounted {
   nook_world_s(nook_gl_s* made_by, const nook_world_desc& known) : gl(made_by), desc(known) {
     gl->device.report_host_errors();

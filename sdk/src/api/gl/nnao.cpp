@@ -16,8 +16,8 @@
 using namespace nook;
 using namespace nook::api;
 
-// Its OpenGL objects can outlive the handle nook_gl, because this object holds a reference to the owner of
-// nook_gl.
+// The OpenGL objects of a screen-space pass can outlive the handle nook_gl, because the pass holds a
+// reference to the owner of nook_gl.
 struct nook_nnao_s : RefCounted {
   nook_nnao_s(nook_gl_s* made_by, const gl::NnaoSettings& known, const nnao::Network& network)
       : gl(made_by), desc(known), form(network.form), own_network(made_by->device.memory) {

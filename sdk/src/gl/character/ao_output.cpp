@@ -25,7 +25,7 @@ struct PackDefines {
   }
 };
 
-// Returns the size of a host's buffer. Throws Failure if it has none.
+// Returns the size of a host's buffer in bytes. Throws Failure if OpenGL rejects the buffer.
 std::uint64_t size_of_buffer(const Device& device, GLuint buffer) {
   GLint64 size = 0;
   device.gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
@@ -70,7 +70,7 @@ void AoOutput::make_draw_objects() {
   gl.EnableVertexAttribArray(0);
 }
 
-// Each vertex of a draw makes one word. The last word may have fewer values. It is drawn separately, so that
+// Each vertex of a draw writes one word. The last word may have fewer values. It is drawn separately, so that
 // nothing beyond the source is read.
 void AoOutput::write_packed(const VertexValues& source, const BufferTarget& target) {
   const Functions& gl = device_.gl;
@@ -111,7 +111,7 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
   Object& program = strided_[static_cast<std::size_t>(target.format)];
   if (!program.name())
     program = compute_program(device_, "character/pack_strided.comp", PackDefines(target.format).text);
-  // Ranges of storage buffers begin at multiples of the alignment.
+  // OpenGL binds ranges of storage buffers only at multiples of this alignment.
   const std::uint64_t alignment = device_.storage_alignment;
   const std::uint64_t source_begin = source.offset / alignment * alignment;
   const std::uint64_t target_begin = target.offset / alignment * alignment;
@@ -138,7 +138,8 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
 
 namespace {
 
-// Returns the width of a texture, and checks its size where OpenGL reports it. Throws Failure.
+// Returns the width of the target texture. If OpenGL reports the size of textures, checks the size and throws
+// Failure if the texture is not suitable.
 std::uint32_t checked_width(const Device& device, const VertexValues& source, const TextureTarget& target) {
   const Functions& gl = device.gl;
   if (!gl.can.texture_sizes) {
@@ -164,7 +165,8 @@ std::uint32_t checked_width(const Device& device, const VertexValues& source, co
   return static_cast<std::uint32_t>(width);
 }
 
-// Uploads of OpenGL ES need the type of the texture's format, which ES 3.1 and later report.
+// In OpenGL ES, an upload must have the type of the texture's format. Only OpenGL ES 3.1 and later report
+// this type.
 void check_format(const Device& device, const TextureTarget& target) {
   const Functions& gl = device.gl;
   if (gl.profile == Profile::desktop || !gl.can.texture_sizes) return;

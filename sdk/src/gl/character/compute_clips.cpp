@@ -14,7 +14,7 @@ static_assert(NOOK_RECORD_CLIPS_MASK << NOOK_RECORD_CLIPS_SHIFT ==
 
 using Words = Vector<std::uint32_t>;
 
-// Puts two numbers in a word, the first one in its low bits.
+// Packs two numbers into each word. The first one is in the low bits.
 void append_pairs(Words& out, const Vector<std::int16_t>& numbers) {
   const auto bits = [&](std::size_t i) {
     return i < numbers.size() ? std::uint32_t{static_cast<std::uint16_t>(numbers[i])} : 0u;
@@ -22,8 +22,8 @@ void append_pairs(Words& out, const Vector<std::int16_t>& numbers) {
   for (std::size_t i = 0; i < numbers.size(); i += 2) out.push_back(bits(i) | bits(i + 1) << 16);
 }
 
-// The scale of each mode, the span of each bone, the weights of each frame and the modes, as clip_bones.comp
-// reads them.
+// Packs clips in the layout that clip_bones.comp reads: the scale of each mode, the span of each bone, the
+// weights of each frame, and the modes.
 Words pack_clips(const ClipSet& set, Memory* memory) {
   Words out(memory);
   out.reserve(set.pose.modes + NOOK_CLIP_SPAN_WORDS * set.bones.size() + (set.pose.weight.size() + 1) / 2 +
@@ -43,7 +43,7 @@ PlacedClips* find_clips(List<PlacedClips>& all, const LoadedClips* clips) {
   return nullptr;
 }
 
-// Returns the smallest number that no other clips of the model have. Throws Failure.
+// Returns the smallest number that no other clips of the model use. Throws Failure if all numbers are in use.
 std::uint32_t free_number(const List<PlacedClips>& all, const LoadedModel* model) {
   const auto is_taken = [&](std::uint32_t number) {
     return std::any_of(all.begin(), all.end(), [&](const PlacedClips& known) {

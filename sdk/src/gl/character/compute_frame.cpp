@@ -18,12 +18,13 @@ Word4 floats(Vec3 v, std::uint32_t w) {
   return {bit_cast<std::uint32_t>(v.x), bit_cast<std::uint32_t>(v.y), bit_cast<std::uint32_t>(v.z), w};
 }
 
-// Positions are sent relative to this point of the instance.
+// Returns the point of the instance to which the positions in the stream are relative.
 Vec3 origin(const Instance& instance) {
   return instance.input.bound.centre;
 }
 
-// Calls visit(slot) for the evaluated instances, level by level, then for instances that only moved.
+// Calls visit(slot) for the instances that are due, level by level. Then calls it for the instances that only
+// moved.
 template <class Visit>
 void for_selected(const Scene& scene, const ComputeChunk& chunk, Visit&& visit) {
   for (std::uint32_t level = 0; level < chunk.model->level_count(); ++level)
@@ -62,7 +63,8 @@ void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t cast
   frame.lights = static_cast<std::uint32_t>(first_light);
 }
 
-// Throws Failure if another nook_gl has the pose of the instance, or this one had it before a release.
+// Throws Failure if this nook_gl does not have the pose of the instance. Then another nook_gl has the pose,
+// or this one has released it.
 void need_pose(const ComputeChunk& chunk, const Placement<ComputeChunk>& placement,
                const Instance& instance) {
   if (chunk.posed_of[placement.place] != pose_of(instance))
@@ -72,7 +74,7 @@ void need_pose(const ComputeChunk& chunk, const Placement<ComputeChunk>& placeme
                   instance.id);
 }
 
-// Lays out the whole frame and returns its bytes.
+// Lays out the pieces of all chunks, and returns their total size in bytes.
 std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
   const Scene& scene = *placed.scene;
   std::uint64_t end = 0;
@@ -114,7 +116,7 @@ void write_pose(const Instance& instance, Mat3x4* out) {
   }
 }
 
-// Writes what clip_bones.comp makes the bones from.
+// Writes the input from which clip_bones.comp computes the bones.
 void write_clip(const Instance& instance, Word4* at) {
   const InstanceClip& clip = instance.input.clip;
   const Vec3 from = origin(instance);
@@ -137,8 +139,8 @@ std::uint32_t first_sphere(const ComputeScene& placed, std::uint32_t slot) {
   return placement.chunk->first_sphere + placement.place * placement.chunk->model->spheres();
 }
 
-// Appends the casters of an instance from `next` on, at the receiver's level, and describes them in the
-// record.
+// Writes the casters of an instance at index `next` and after it, at the receiver's level of detail. Stores
+// their index and count in the record.
 void write_casters(const ComputeScene& placed, const Instance& instance, Word4* piece, std::uint32_t& next,
                    InstanceRecord& record) {
   const Scene& scene = *placed.scene;
@@ -181,12 +183,12 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
         next_light += light_texels(instance.light);
       }
     }
-    // Shaders write the bones of the others.
+    // If the pose is on the GPU, pose_place.comp writes the bones.
     if (instance.input.clip.is_late)
       write_clip(instance, piece + record.first_bone);
     else if (!instance.input.is_posed_on_gpu)
       write_pose(instance, reinterpret_cast<Mat3x4*>(piece + record.first_bone));
-    // Mapped memory is written once, never read.
+    // Mapped memory may be slow to read, so the record is only copied to it.
     std::memcpy(static_cast<void*>(piece + NOOK_RECORD_UVEC4S * written++), &record, sizeof record);
   });
 }

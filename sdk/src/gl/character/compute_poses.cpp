@@ -1,4 +1,4 @@
-// The part of the compute tier that takes poses from the host's buffer.
+// The part of the compute tier that converts poses from the host's buffer.
 #include <cstring>
 
 #include "sdk/src/character/scene_clips.h"
@@ -20,7 +20,7 @@ Word4 floats(float x, float y, float z, float w) {
           bit_cast<std::uint32_t>(w)};
 }
 
-// Mapped memory is written once, never read.
+// Mapped memory may be slow to read, so values are only copied to it.
 void put(Word4* at, const Word4& value) {
   std::memcpy(static_cast<void*>(at), &value, sizeof value);
 }
@@ -37,7 +37,7 @@ Vec3 centre_of(const nook_gl_instance_pose& pose) {
   return {pose.bound_centre_ws[0], pose.bound_centre_ws[1], pose.bound_centre_ws[2]};
 }
 
-// True if a bone may keep its matrix, and the GPU does not have it.
+// Returns true if bones without a transform keep matrices that are only on the CPU.
 bool needs_seed(const PoseBatch& batch, const Instance& instance) {
   return batch.source.is_partial && !instance.input.is_posed_on_gpu;
 }
@@ -61,7 +61,7 @@ void check_place(const ComputeScene& placed, const PoseBatch& batch, const Insta
                   instance.id);
 }
 
-// Checks all instances and counts them for each chunk. Throws Failure.
+// Checks all instances, and counts the instances of each chunk. Throws Failure if one cannot get a pose.
 void count_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batch) {
   ++placed.pose_calls;
   for (ComputeChunk& chunk : placed.chunks) chunk.poses = {};
@@ -77,7 +77,8 @@ void count_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batc
   }
 }
 
-// Gives each chunk its piece of the jobs, and returns the bytes of all. Throws Failure.
+// Gives each chunk its piece of the job buffer, and returns the size of the buffer in bytes. Throws Failure
+// if OpenGL cannot bind a piece this large.
 std::uint64_t lay_out_jobs(const Device& device, ComputeScene& placed) {
   std::uint64_t end = 0;
   for (ComputeChunk& chunk : placed.chunks) {
@@ -101,7 +102,8 @@ std::uint64_t lay_out_jobs(const Device& device, ComputeScene& placed) {
   return end;
 }
 
-// Writes what the transform of each bone is multiplied with.
+// Writes, for each bone, the matrix by which its transform is multiplied, its joint, and the index of its
+// transform.
 void write_bind(const CharacterModel& model, const PoseSource& source, Word4* piece) {
   PoseSource without_place = source;
   without_place.place = {};
@@ -119,7 +121,7 @@ void write_bind(const CharacterModel& model, const PoseSource& source, Word4* pi
   });
 }
 
-// Writes the bones that an instance has on the CPU, relative to its origin there.
+// Writes the bones of a pose that is on the CPU, relative to the origin that the instance has there.
 void write_seed(const Instance& instance, Word4* at) {
   const Vec3 from = instance.input.bound.centre;
   for (const Mat3x4& bone : instance.input.bones) {
@@ -185,7 +187,7 @@ void take_poses(Scene& scene, ComputeScene& placed, const PoseBatch& batch) noex
 
 }  // namespace
 
-// Programs and buffers that are missing. Throws Failure.
+// Creates the programs and buffers that do not exist yet. Throws Failure if this is not possible.
 void ComputeTier::make_pose_objects(ComputeScene& placed) {
   const auto is_missing = [](const ComputeChunk& chunk) { return chunk.poses.count && !chunk.posed.name(); };
   if (convert_poses_.name() && place_poses_.name() && placed.jobs.name() &&
@@ -236,7 +238,8 @@ void ComputeTier::convert_poses(const ComputeScene& placed, const PoseBatch& bat
       gl.DispatchCompute(chunk.poses.count, 1, 1);
     }
   }
-  // For the updates, and for shaders of the host that write the range again.
+  // Updates read the bones afterwards, and the host's shaders may overwrite the transforms. Both must wait
+  // for the dispatches above.
   gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
 }
 

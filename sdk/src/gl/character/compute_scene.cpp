@@ -22,7 +22,7 @@ void append_spheres(Floats& out, const Vector<ProxySphere>& spheres) {
   }
 }
 
-// The levels in a row, as spheres.comp reads them.
+// Packs the spheres of all levels, one level after another, in the layout of spheres.comp.
 Floats pack_spheres(const CharacterModel& model, Memory* memory) {
   Floats out(memory);
   append_spheres(out, model.spheres);
@@ -37,7 +37,7 @@ void append_key_point(Floats& out, const KeyPoint& point) {
   for (const float weight : point.weight) out.push_back(weight);
 }
 
-// The levels in a row, as shadows.comp reads them.
+// Packs the key points of all levels, one level after another, in the layout of shadows.comp.
 Floats pack_key_points(const CharacterModel& model, Memory* memory) {
   Floats out(memory);
   for (const KeyPoint& point : model.key_points) append_key_point(out, point);
@@ -46,7 +46,7 @@ Floats pack_key_points(const CharacterModel& model, Memory* memory) {
   return out;
 }
 
-// The coarser levels in a row, as spread.comp reads them.
+// Packs the coarser levels, one after another, in the layout of spread.comp.
 Words pack_spread(const CharacterModel& model, Memory* memory) {
   Words out(memory);
   for (const CharacterLevel& level : model.levels)
@@ -152,7 +152,8 @@ void ComputeScene::make_buffers(Device& device) {
   make_light_buffers(device);
 }
 
-// World-space spheres of all chunks in a row, since any instance may be a caster of any other.
+// One buffer holds the world-space spheres of all chunks, because any instance may be a caster of any other
+// instance.
 void ComputeScene::make_sphere_buffers(Device& device) {
   std::uint64_t count = 0;
   bool moved = false;

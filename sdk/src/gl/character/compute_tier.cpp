@@ -23,7 +23,7 @@ struct OutputDefine {
   explicit OutputDefine(int output) { std::snprintf(text, sizeof text, "#define NOOK_OUTPUT %d\n", output); }
 };
 
-// Decides who is due. If the update fails after this, the next one makes up for it.
+// Decides which instances are due. If the update fails later, the next update evaluates these instances.
 void decide(ComputeScene& placed, Scene& scene) {
   placed.notice_lights();
   ++scene.frame;
@@ -148,8 +148,8 @@ void ComputeTier::release(const Scene& scene) {
   drop_unused(models_);
 }
 
-// Each pass runs for all chunks before the next pass: casters may live in any chunk, and one barrier then
-// serves all.
+// Runs each pass for all chunks before the next pass, because casters may be in any chunk. One barrier after
+// each pass is then enough.
 void ComputeTier::run(const Update& update) const {
   const Functions& gl = device_.gl;
   place_poses(update);
@@ -183,7 +183,8 @@ void ComputeTier::run_spheres(const Update& update) const {
   }
 }
 
-// Binds and dispatches a pass over key points for the instances of a chunk that are due.
+// Binds the buffers of a pass over key points, and dispatches the pass for the instances of a chunk that are
+// due.
 void ComputeTier::run_key_points(const Update& update, const ComputeChunk& chunk) const {
   const Functions& gl = device_.gl;
   const ComputeModel& model = *chunk.model;
@@ -288,7 +289,8 @@ void ComputeTier::run_vertices(const Update& update) const {
     if (chunk.frame.due) blend_vertices(update, chunk, chunk.shadows, chunk.ao);
 }
 
-// Runs for all instances of a chunk if one of them has a light. The others get AO in all channels.
+// If one instance of a chunk has a light, runs the pass for all instances of the chunk. The instances without
+// a light get their AO in all channels.
 void ComputeTier::run_lit_vertices(const Update& update) const {
   const Functions& gl = device_.gl;
   for (const ComputeChunk& chunk : update.placed.chunks) {

@@ -7,8 +7,8 @@
 namespace nook::gl {
 namespace {
 
-// A vertex's attributes lie together: bias, then for every four influences the key points as 16-bit numbers,
-// the alphas and the blend weights.
+// The attributes of a vertex are stored together. First comes the bias. Then each group of four influences
+// has its key points as 16-bit numbers, its alphas and its blend weights.
 constexpr std::size_t alpha_offset = 4 * sizeof(std::uint16_t);
 constexpr std::size_t blend_offset = alpha_offset + 4 * sizeof(float);
 constexpr std::size_t quad_bytes = blend_offset + 4 * sizeof(float);
@@ -76,7 +76,8 @@ ModelMemory feedback_memory(const LoadedModel& loaded, bool indexed) {
   ModelMemory memory;
   memory.shared = indexed ? model.vertex_count() * stride + file_vertices * sizeof(std::uint32_t)
                           : file_vertices * stride;
-  // Includes the share of the page, which stops growing at a million key points.
+  // The values include the instance's part of a page, although the page stops growing at a million key
+  // points.
   memory.instance = file_vertices * sizeof(float) + key_points * 2 * sizeof(float);
   memory.light = file_vertices * 3 * sizeof(float) + key_points * NOOK_COLOUR_VEC4S * 4 * sizeof(float);
   return memory;
@@ -93,8 +94,8 @@ void FeedbackScene::make_shadow_page(Device& device) {
     texels += std::uint64_t{chunk.capacity} * chunk.model->key_points();
     largest = std::max<std::uint64_t>(largest, chunk.model->key_points());
   }
-  // With a million texels, 8 MB, the cost of a page no longer matters. Key points have 16-bit numbers, so
-  // even 65,536 texels, which every OpenGL has, hold at least one instance.
+  // If a page has a million texels (8 MB), the overhead per page is negligible. Key points have 16-bit
+  // indices. So even the 65,536 texels that every OpenGL supports are enough for one instance.
   constexpr std::uint64_t enough = 1 << 20;
   texels = std::max(largest, std::min({texels, std::uint64_t{device.max_texels}, enough}));
   shadows.reserve(device, GL_RG32F, texels, "nook: shadows");
@@ -109,7 +110,8 @@ void FeedbackScene::make_light_buffers(Device& device) {
   if (lights.made()) make_colour_page(device);
 }
 
-// Makes room for shadows and added occlusion by channel, for as many instances as fit.
+// Allocates the page for shadows and added occlusion of each channel. If the page is too small for all
+// instances, it is filled and drawn several times.
 void FeedbackScene::make_colour_page(Device& device) {
   std::uint64_t texels = 0, largest = 0;
   for (const FeedbackChunk& chunk : chunks) {

@@ -26,7 +26,8 @@ struct Shadows {
   }
 };
 
-// The same for each channel: eight floats for each key point. Without a light all channels are equal.
+// Shadow and added occlusion of each channel, eight floats for each key point. Without a light, all channels
+// are equal.
 struct Colours {
   static constexpr std::uint32_t floats = 8, texels = NOOK_COLOUR_VEC4S;
   static void write(const Scene& scene, const Instance& instance, float* out) {
@@ -44,8 +45,9 @@ struct Colours {
   }
 };
 
-// Sends the shadows of the waiting places from `first` on, in their order and as many as fit. Returns the end
-// of these places, or `first` if none is left.
+// Fills the page with the key points of waiting instances, in the order of their places. Starts at the place
+// `first` and stops when the page is full. Returns the place at which the next page begins, or `first` if no
+// instance is waiting.
 template <class Kind>
 std::uint32_t fill_page(Device& device, const FeedbackScene& placed, TexelTable& page,
                         const FeedbackChunk& chunk, std::uint32_t first) {
@@ -161,7 +163,7 @@ void FeedbackTier::release(const Scene& scene) {
 void FeedbackTier::draw_scene(FeedbackScene& placed) const {
   const Functions& gl = device_.gl;
   target_.begin(device_);
-  // WebGL forbids writing a buffer while it is bound to another point.
+  // WebGL does not allow transform feedback into a buffer that is also bound to another binding point.
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);
   gl.ActiveTexture(GL_TEXTURE0);
   for (const FeedbackChunk& chunk : placed.chunks) {
@@ -189,8 +191,8 @@ void FeedbackTier::draw_chunk(const FeedbackScene& placed, const FeedbackChunk& 
   }
 }
 
-// Neighbouring places are also neighbours in the page. One draw serves a run of them if all have self-shadow,
-// or none has.
+// Instances at consecutive places are also consecutive in the page. One draw handles a run of such instances
+// if all of them have self-shadow, or if none has.
 void FeedbackTier::draw_page(const FeedbackScene& placed, const FeedbackChunk& chunk, std::uint32_t first,
                              std::uint32_t end, const Program& program, const Target& target) const {
   const auto has_self = [&](std::uint32_t place) {

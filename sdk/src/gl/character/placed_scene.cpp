@@ -18,7 +18,7 @@ namespace {
 // The number of groups that OpenGL guarantees in each dimension of a dispatch.
 constexpr std::uint64_t max_groups = 65535;
 
-// Makes AO that is fully open until the first update.
+// Creates a buffer for AO. Until the first update, its AO is 1, which means fully open.
 Buffer open_buffer(Device& device, const char* label, std::uint64_t floats) {
   const std::uint64_t bytes = floats * sizeof(float);
   Buffer buffer(device, label, bytes, nullptr, GL_DYNAMIC_COPY, BufferUse::ao);
