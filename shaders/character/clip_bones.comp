@@ -1,18 +1,20 @@
-// Decodes the bones of baked clips where an update reads bones. There is one group for each instance of the
-// update, and its threads take turns with the bones. It follows decode_bone of
-// sdk/src/character/loaded_clips.cpp.
+// Decodes the bones of baked clips, and writes them to the stream, from which an update reads bones. There is
+// one group for each instance of the update. The bones of the instance are distributed over the threads of
+// its group. decode_bone in sdk/src/character/loaded_clips.cpp does the same on the CPU.
 #include "shaders/character/layout.h"
 #include "shaders/character/nearest_similarity.glsl"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-// It begins with the records of instance.glsl. Where the bones of an instance will be, there are three rows of its
-// place, relative to its origin. An element with two frames and the share of the second one follows.
+// The stream begins with the records of instance.glsl. At the index where this shader writes the bones of an
+// instance, the stream initially contains their input. The first three elements are the rows of the
+// instance's place, relative to its origin. The fourth contains two frames and the share of the second frame.
 layout(std430, binding = NOOK_BINDING_STREAM) buffer NookStream {
   uvec4 nook_stream[];
 };
-// It has the scale of each mode, then the centre and radius of each bone. The weights of each frame follow, and
-// then the modes with twelve numbers for each bone. Weights and modes take half a word each.
+// The buffer begins with the scale of each mode. Then come the centre and radius of each bone, and the
+// weights of each frame. The modes come last, with twelve numbers for each bone. A weight, and a number of a
+// mode, takes half a word.
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookClips {
   uint nook_clip[];
 };
@@ -24,7 +26,7 @@ layout(location = NOOK_LOCATION_CLIP_FIRST_WEIGHT) uniform uint nook_first_weigh
 layout(location = NOOK_LOCATION_CLIP_FIRST_MODE) uniform uint nook_first_mode;
 
 shared uvec4 nook_job[NOOK_CLIP_JOB_UVEC4S];
-shared float nook_weight[NOOK_MAX_POSE_MODES];  // of the modes, at the time of the instance
+shared float nook_weight[NOOK_MAX_POSE_MODES];  // the weight of each mode at the time of the instance
 
 float nook_low(uint word) { return float(int(word << 16) >> 16); }
 float nook_high(uint word) { return float(int(word) >> 16); }
@@ -36,8 +38,9 @@ float nook_frame_weight(uint frame, uint mode) {
   return uintBitsToFloat(nook_clip[mode]) * (1.0 / 32767.0) * ((index & 1u) == 0u ? nook_low(word) : nook_high(word));
 }
 
-// Returns the columns of the nearest rotation with one scale. These are Newton's steps to the polar factor
-// (Higham 1986, equation 3.3). A mix of two frames is close to it, so that a few are enough.
+// Returns the columns of the nearest matrix that has a uniform scale and no shear. Newton's iteration
+// computes the polar factor (Higham 1986, equation 3.3). A mix of two frames is close to its polar factor, so
+// a few steps are enough.
 mat3 nook_evened(mat3 axes) {
   float mean = sqrt((dot(axes[0], axes[0]) + dot(axes[1], axes[1]) + dot(axes[2], axes[2])) / 3.0);
   int steps = mean > 1e-12 && mean < 1e12 ? 12 : 0;
@@ -59,7 +62,7 @@ mat3 nook_evened(mat3 axes) {
 }
 
 void nook_decode(uint bone, uint first) {
-  // The numbers of the bone: three rows of its rotation and scale, and the place of its centre.
+  // The twelve numbers of the bone: three rows of its rotation and scale, and the position of its centre.
   vec2 sums[NOOK_CLIP_BONE_WORDS];
   for (int i = 0; i < NOOK_CLIP_BONE_WORDS; ++i) sums[i] = vec2(0.0);
   uint at = nook_first_mode + uint(NOOK_CLIP_BONE_WORDS) * bone;
@@ -84,11 +87,11 @@ void nook_decode(uint bone, uint first) {
 
 void main() {
   uvec4 head = nook_stream[uint(NOOK_RECORD_UVEC4S) * gl_WorkGroupID.x];
-  // All threads of a group belong to one instance.
+  // All threads of a group take the same branch, because they belong to one instance.
   if (((head.z >> NOOK_RECORD_CLIPS_SHIFT) & NOOK_RECORD_CLIPS_MASK) == nook_number) {
     uint thread = gl_LocalInvocationID.x;
     if (thread < uint(NOOK_CLIP_JOB_UVEC4S)) nook_job[thread] = nook_stream[head.x + thread];
-    // Bones overwrite the job after every thread has read its part.
+    // The bones will overwrite the job in the stream. So wait until every thread has copied its part.
     barrier();
     uvec4 frames = nook_job[NOOK_BONE_ROWS];
     float share = uintBitsToFloat(frames.z);

@@ -5,8 +5,8 @@
 #include "shaders/character/light.glsl"
 
 layout(std430, binding = NOOK_BINDING_KEY_POINTS) writeonly buffer NookColours {
-  vec4 nook_colour[];  // two for each key point: colour that the shadow is multiplied by, shadow; added
-                       // occlusion
+  vec4 nook_colour[];  // two for each key point: (colour that multiplies the shadow, shadow), then the
+                       // added occlusion of each channel
 };
 
 void nook_gather_sphere(inout NookBands bands, vec4 sphere, NookPoint point) {

@@ -5,7 +5,7 @@
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
 layout(std430, binding = NOOK_BINDING_KEY_POINTS) buffer NookColours {
-  vec4 nook_colour[];  // two for each key point; first all key points, then the evaluated ones
+  vec4 nook_colour[];  // two vectors per key point: first for all key points, then for the evaluated ones
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookSpread {
   uint nook_spread[];  // for each level and key point: index of the evaluated key point, scale, offset

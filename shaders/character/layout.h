@@ -71,12 +71,13 @@
 #define NOOK_OUTPUT_COLOUR 1
 #define NOOK_OUTPUT_GREY 2
 
-// This bit in the same word as an instance's place is set if the instance's own spheres darken it.
+// A word of the record contains the place of the instance and flags. This flag is set if the instance's own
+// spheres darken it.
 #define NOOK_RECORD_SELF 0x80000000u
-// This bit is set if the instance's pose is on the GPU. pose_place.comp then writes its bones.
+// This flag is set if the instance's pose is on the GPU. pose_place.comp then writes its bones.
 #define NOOK_RECORD_POSED 0x40000000u
-// If clip_bones.comp decodes its bones, these bits have the number of its clips, counted from 1 for each
-// model.
+// If clip_bones.comp decodes the bones of the instance, these bits contain the number of its clips. The clips
+// of each model are numbered from 1.
 #define NOOK_RECORD_CLIPS_SHIFT 20
 #define NOOK_RECORD_CLIPS_MASK 0x3ffu
 #define NOOK_RECORD_PLACE 0xfffffu
@@ -91,18 +92,18 @@
 #define NOOK_MAX_POSE_MODES 512
 
 // Number of array elements per item in storage buffers.
-#define NOOK_RECORD_UVEC4S 2      // of an instance
+#define NOOK_RECORD_UVEC4S 2      // the record of an instance
 #define NOOK_SPHERE_VEC4S 2       // centre, 1 / radius; caster weight
 #define NOOK_BONE_ROWS 3          // of a 3x4 matrix
 #define NOOK_REST_SPHERE_VEC4S 2  // centre, radius; bone, caster weight
 #define NOOK_KEY_POINT_VEC4S 6    // position, normal, surface position, surface normal, bones, weights
-#define NOOK_CASTER_UVEC4S 2      // its origin minus the receiver's, first sphere; number of spheres
+#define NOOK_CASTER_UVEC4S 2      // caster's origin minus receiver's origin, first sphere; number of spheres
 #define NOOK_SPREAD_WORDS 3       // evaluated key point, scale, offset
-#define NOOK_POSE_BIND_UVEC4S 4   // of a bone: three rows from rest space to its transform; joint, transform
-#define NOOK_POSE_JOB_UVEC4S 5    // of an instance: three rows of its place; where; its origin's move
-#define NOOK_CLIP_JOB_UVEC4S 4  // of an instance: three rows of its place; two frames and the second's share
-#define NOOK_CLIP_SPAN_WORDS 4  // of a bone: centre, radius
-#define NOOK_CLIP_BONE_WORDS 6  // of a bone in a mode: twelve 16-bit numbers
-#define NOOK_COLOUR_VEC4S 2     // colour that multiplies the shadow, and the shadow; added occlusion
+#define NOOK_POSE_BIND_UVEC4S 4   // for each bone: three matrix rows; joint position, index of transform
+#define NOOK_POSE_JOB_UVEC4S 5    // for each instance: three rows of its place; indices; move of its origin
+#define NOOK_CLIP_JOB_UVEC4S 4  // for each instance: three rows of its place; two frames, share of the second
+#define NOOK_CLIP_SPAN_WORDS 4  // for each bone: centre, radius
+#define NOOK_CLIP_BONE_WORDS 6  // for each bone and mode: twelve 16-bit numbers
+#define NOOK_COLOUR_VEC4S 2     // colour that multiplies the shadow, shadow; added occlusion
 
 #endif

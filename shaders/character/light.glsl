@@ -58,8 +58,8 @@ vec3 nook_light_ratio(uint light, vec3 inverse, vec3 n, NookSight sight, float s
   return clamp(behind * inverse, 0.0, NOOK_LARGEST_RATIO);
 }
 
-// Returns the share of a lobe that is below the horizon. m is the lobe's sharpness, and `height` is the
-// height of its vector above the horizon.
+// Returns the share of a lobe that is below the horizon. `m` is the sharpness of the lobe, and `height` is
+// the height of its vector above the horizon.
 float nook_share_below(float height, float m) {
   float x = height * inversesqrt(m * 2.0 * m / (m + 4.0) + NOOK_BELOW_WIDTH), a = abs(x);
   float p = (((NOOK_BELOW_4 * a + NOOK_BELOW_3) * a + NOOK_BELOW_2) * a + NOOK_BELOW_1) * a + 1.0;

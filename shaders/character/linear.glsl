@@ -9,8 +9,9 @@ float nook_form(float shadow, float added, float bias) {
   return self * clamp(1.0 - added, 0.0, 1.0);
 }
 
-// The same for the light of an instance. shadow.xyz is the sum of alpha * coloured shadow, and shadow.w the
-// sum of alpha * shadow. The ratio is explained in sdk/src/character/directional_occlusion.h.
+// Computes the same formula for each colour channel of an instance with a light. shadow.xyz is the sum of
+// alpha * coloured shadow, and shadow.w the sum of alpha * shadow. The ratio is explained in
+// sdk/src/character/directional_occlusion.h.
 vec3 nook_combine_light(vec4 shadow, vec3 added, float bias) {
   vec3 ratio = (shadow.xyz + NOOK_SMALLEST_SHARE) / (max(shadow.w, 0.0) + NOOK_SMALLEST_SHARE);
   vec3 self = clamp(1.0 - max(shadow.w + bias, 0.0) * ratio, 0.0, 1.0);

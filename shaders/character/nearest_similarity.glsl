@@ -1,7 +1,8 @@
 // Removes shear and uneven scale from the matrix of a bone, as sdk/src/character/pose_source.cpp and
 // sdk/src/core/affine.cpp do in double precision. A matrix is given by its three columns.
 
-// True for small deviations, which come from exporters and from rounding. Such matrices are not projected.
+// Returns true if the matrix has almost a uniform scale and almost no shear. Exporters and rounding cause
+// such small deviations. The caller then uses the matrix unchanged.
 bool nook_is_kept(mat3 axes) {
   vec3 squared = vec3(dot(axes[0], axes[0]), dot(axes[1], axes[1]), dot(axes[2], axes[2]));
   float shortest = min(squared.x, min(squared.y, squared.z));

@@ -1,23 +1,26 @@
-// Converts transforms in the host's buffer to the bones of instances. There is one group for each instance, and
-// its threads take turns with the bones. The bones are kept until the next call, relative to the origin of the
-// instance.
+// Converts transforms in the host's buffer to the bones of instances. There is one group for each instance.
+// The bones of the instance are distributed over the threads of its group. The bones are relative to the
+// origin of the instance, and stay valid until the next call.
 #include "shaders/character/layout.h"
 #include "shaders/character/nearest_similarity.glsl"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-// The buffer begins with four elements for each bone. Three are the rows of the matrix that its transform is
-// multiplied with. The fourth has the place of its joint in rest space and the index of its transform.
-// Five elements for each instance follow. Three are the rows of its place, relative to its origin. The fourth
-// has the first word of its transforms, the window of this word, its place in the chunk, and the first element
-// of its earlier bones or 0. The fifth is what its origin moved. Earlier bones come last.
+// The buffer begins with four elements for each bone. The first three are the rows of the matrix by which the
+// bone's transform is multiplied. The fourth contains the position of the bone's joint in rest space, and the
+// index of the bone's transform. Then come five elements for each instance. The first three are the rows of
+// the instance's place, relative to its origin. The x of the fourth is the first word of its transforms, y is
+// the window that contains this word, and z is its place in the chunk. w is the first element of its earlier
+// bones, or 0 if there are none. The fifth is the vector that earlier bones must be moved by, because the
+// origin has changed. The earlier bones come last.
 layout(std430, binding = NOOK_BINDING_STREAM) readonly buffer NookJobs {
   uvec4 nook_job[];
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookTransforms {
   uint nook_word[];
 };
-// For each place of the chunk, an element whose x is 1 if a number is not finite, then three rows of each bone.
+// For each place of the chunk: one element, whose x is 1 if the pose contains a value that is not finite or
+// too large; then three rows for each bone.
 layout(std430, binding = NOOK_BINDING_SPHERES) buffer NookPosed {
   vec4 nook_posed[];
 };
@@ -48,8 +51,9 @@ vec3 nook_three(uint word, uint index) {
   return vec3(nook_number(word, index), nook_number(word, index + 1u), nook_number(word, index + 2u));
 }
 
-// The rows of a rotation by a quaternion of any length, of axes that are `scale` long, and a translation. A
-// division by the squared length rounds less often than a unit quaternion would.
+// Returns the rows of a transform: a scale, then a rotation by a quaternion of any length, then a
+// translation. The quaternion is not normalised first. Dividing by its squared length has fewer rounding
+// errors.
 NookRows nook_of_quaternion(vec4 q, vec3 scale, vec3 move) {
   float s = 2.0 / dot(q, q);
   vec3 x = vec3(1.0 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y - q.z * q.w), s * (q.x * q.z + q.y * q.w));
@@ -58,7 +62,7 @@ NookRows nook_of_quaternion(vec4 q, vec3 scale, vec3 move) {
   return NookRows(vec4(x * scale, move.x), vec4(y * scale, move.y), vec4(z * scale, move.z));
 }
 
-// The layouts have the numbers of nook_transform_layout.
+// nook_layout is a value of nook_transform_layout.
 NookRows nook_transform(uint word) {
   if (nook_layout <= 1) return NookRows(nook_four(word, 0u), nook_four(word, 4u), nook_four(word, 8u));
   if (nook_layout <= 3) {
@@ -81,21 +85,22 @@ NookRows nook_job_rows(uint at) {
   return NookRows(nook_job_floats(at), nook_job_floats(at + 1u), nook_job_floats(at + 2u));
 }
 
-// Applies b first.
+// The product applies `b` first.
 vec4 nook_row_product(vec4 a, NookRows b) { return a.x * b.x + a.y * b.y + a.z * b.z + vec4(0.0, 0.0, 0.0, a.w); }
 NookRows nook_product(NookRows a, NookRows b) {
   return NookRows(nook_row_product(a.x, b), nook_row_product(a.y, b), nook_row_product(a.z, b));
 }
 
-// Bits of positive floats have the order of the floats, and infinities and NaN come after all numbers. A
-// comparison of floats would not do: compilers may assume that there is no NaN.
+// Compares the bits of floats as integers. For positive floats, both comparisons give the same order, and
+// infinities and NaN come after all finite numbers. A comparison of floats is not safe, because compilers may
+// assume that NaN does not occur.
 bool nook_is_within(vec4 row) {
   uvec4 bits = floatBitsToUint(row) & 0x7fffffffu;
   uint scale = floatBitsToUint(NOOK_POSE_MAX_SCALE), metres = floatBitsToUint(NOOK_POSE_MAX_METRES);
   return bits.x <= scale && bits.y <= scale && bits.z <= scale && bits.w <= metres;
 }
 
-// Projects to the nearest rotation with one scale. The image of the joint stays.
+// Returns the nearest matrix that has a uniform scale and no shear. The image of the joint does not change.
 NookRows nook_evened(NookRows m, vec3 joint) {
   mat3 axes = mat3(m.x.x, m.y.x, m.z.x, m.x.y, m.y.y, m.z.y, m.x.z, m.y.z, m.z.z);
   if (nook_is_kept(axes)) return m;
@@ -121,7 +126,7 @@ NookRows nook_kept_bone(uint earlier, uint kept, vec3 move) {
 void main() {
   uint job = uint(NOOK_POSE_BIND_UVEC4S) * nook_bone_count + uint(NOOK_POSE_JOB_UVEC4S) * gl_WorkGroupID.x;
   uvec4 where = nook_job[job + 3u];
-  // All threads of a group belong to one instance.
+  // All threads of a group take the same branch, because they belong to one instance.
   if (where.y == nook_window) {
     if (gl_LocalInvocationID.x == 0u) nook_is_bad = 0u;
     barrier();

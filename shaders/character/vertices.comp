@@ -2,7 +2,8 @@
 // for each vertex; the y coordinate is the instance. NOOK_OUTPUT is one of
 //   NOOK_OUTPUT_AO      AO, one float for each vertex;
 //   NOOK_OUTPUT_COLOUR  directional occlusion of instances with a light, three floats;
-//   NOOK_OUTPUT_GREY    AO in all three channels, for the instances without light that live among those with one.
+//   NOOK_OUTPUT_GREY    AO in all three channels, for instances without a light whose chunk also contains
+//                       instances with a light.
 #include "shaders/character/instance.glsl"
 #include "shaders/character/linear.glsl"
 
@@ -10,15 +11,15 @@ layout(local_size_x = NOOK_VERTEX_GROUP_SIZE) in;
 
 layout(std430, binding = NOOK_BINDING_VERTEX_INPUT) readonly buffer NookKeyPoints {
 #if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
-  vec4 nook_colour[];  // two for each key point: colour that the shadow is multiplied by, shadow; added
-                       // occlusion
+  vec4 nook_colour[];  // two for each key point: (colour that multiplies the shadow, shadow), then the
+                       // added occlusion of each channel
 #else
   vec2 nook_shadow[];  // shadow, added occlusion
 #endif
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookLinear {
   // First comes the index of the welded vertex for each file vertex. Then come arrays over the welded
-  // vertices: bias; key points, two in a word; alphas; blend weights.
+  // vertices: bias; key points, packed two to a word; alphas; blend weights.
   uint nook_linear[];
 };
 layout(std430, binding = NOOK_BINDING_AO) writeonly buffer NookAo {

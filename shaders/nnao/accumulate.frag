@@ -18,7 +18,7 @@ out vec4 nook_out;
 #define nook_max_frames nook_earlier[NOOK_EARLIER_SIZE].z    // maximum number of frames in the mean; 1: the history is ignored
 #define nook_has_motion (nook_earlier[NOOK_EARLIER_SIZE].w != 0.0)
 #define nook_motion_scale nook_earlier[NOOK_EARLIER_MOTION].xy  // texels of the surface per unit of the motion texture
-#define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // how far the noise of the taps moves AO from its mean
+#define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // how much the noise of the taps can move AO away from its mean
 
 // Splits AO in [0, 1] into the nearest 255th, which the filter reads, and the remainder. With only 8 bits, a
 // mean over many frames would stop changing.

@@ -5,15 +5,15 @@
 uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 
 #define nook_screen_rays nook_frame[NOOK_FRAME_SCREEN_RAYS]   // x_scale, x_offset, y_scale, y_offset of the rays through pixels of the screen
-#define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // the same for texels of the surface
+#define nook_surface_rays nook_frame[NOOK_FRAME_SURFACE_RAYS]  // the same values for the rays through texels of the surface
 #define nook_depth_decode nook_frame[NOOK_FRAME_DEPTH_DECODE]  // depth = (x + y s) / (z + w s); s is the stored value plus nook_stored_slope, or see nook_log_rate
 #define nook_far_stored nook_frame[NOOK_FRAME_FAR].x  // the stored value of the far plane
-#define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values grow with the distance; -1: they fall
+#define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values increase with the distance; -1: they decrease
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
 #define nook_writes_bent_normals (nook_frame[NOOK_FRAME_FAR].w != 0.0)
-#define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the screen's extent at a depth is x depth + y: perspective (1, 0), orthographic (0, 1)
+#define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the extent of the screen at a depth is x * depth + y: (1, 0) in a perspective, (0, 1) if orthographic
 #define nook_edges_per_metre nook_frame[NOOK_FRAME_SPREAD].z  // 1 / the change of depth that is treated as an edge
-#define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // the same, relative to the extent, for radii in pixels
+#define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // like nook_edges_per_metre, but relative to the extent; used if the radius is in pixels
 #define nook_array_layer int(nook_frame[NOOK_FRAME_INPUT].z)  // layer of the host's texture arrays
 #define nook_log_rate nook_frame[NOOK_FRAME_INPUT].x  // if not 0, depth is logarithmic and s = exp2(nook_log_rate * stored)
 #define nook_range_sharpness nook_frame[NOOK_FRAME_SPREAD].w  // for the filter along y: AO values that differ by more than 2 / sharpness are not averaged
@@ -25,14 +25,14 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_power nook_frame[NOOK_FRAME_RADIUS].w
 #define nook_normal_scale nook_frame[NOOK_FRAME_NORMAL].x
 #define nook_normal_bias nook_frame[NOOK_FRAME_NORMAL].y
-#define nook_shortest_normal nook_frame[NOOK_FRAME_NORMAL].z  // shorter texels are not normals; 0: the host has no normals
+#define nook_shortest_normal nook_frame[NOOK_FRAME_NORMAL].z  // texels shorter than this do not contain a normal; 0: the host has no normals
 #define nook_has_normals (nook_shortest_normal != 0.0)
 #define nook_layer_mode int(nook_frame[NOOK_FRAME_NORMAL].w)
 #define nook_origin ivec2(nook_frame[NOOK_FRAME_VIEWPORT].xy)  // lower left pixel of the viewport in the host's textures
 #define nook_screen_size ivec2(nook_frame[NOOK_FRAME_VIEWPORT].zw)
 #define nook_surface_last nook_frame[NOOK_FRAME_SURFACE].xy  // texel of the upper right corner
 #define nook_surface_size (ivec2(nook_surface_last) + 1)
-#define nook_stored_slope nook_frame[NOOK_FRAME_SURFACE].zw  // added to stored depth per pixel along x and y; 0 unless the projection is oblique
+#define nook_stored_slope nook_frame[NOOK_FRAME_SURFACE].zw  // added to stored depth for each pixel along x and y; 0 unless the projection is oblique
 #define nook_normal_matrix mat3(nook_frame[NOOK_FRAME_NORMAL_MATRIX].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].xyz, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 2].xyz)
 
 #define nook_noise_shift vec2(nook_frame[NOOK_FRAME_NORMAL_MATRIX].w, nook_frame[NOOK_FRAME_NORMAL_MATRIX + 1].w)  // shift of the noise in this frame

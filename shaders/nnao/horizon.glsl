@@ -19,7 +19,7 @@ struct NookCentre {
   vec3 position, normal, viewer;
   float half_nearness;          // 1 / 2r
   float min_squared;            // minimum squared distance of a tap, square metres
-  float steps_px[NOOK_STEPS];   // distances of the taps of a direction, texels along the screen's y axis
+  float steps_px[NOOK_STEPS];   // distance of each tap of a direction, in texels along the screen's y axis
 };
 
 vec4 nook_products(vec4 x, int weights) {
@@ -33,7 +33,7 @@ vec4 nook_leaky(vec4 x, int slope) {
 
 struct NookHorizon {
   vec4 most, sum;  // maximum and sum of the units over the steps
-  float bound;     // the greatest elevation times nearness, at least 0
+  float bound;     // maximum over the steps of elevation times nearness, at least 0
 };
 
 void nook_add_tap(inout NookHorizon found, NookCentre centre, vec2 place) {

@@ -5,8 +5,8 @@
 struct NookProbeSurface {
   vec3 normal;       // unit
   vec3 view;         // unit, from the surface to the eye
-  vec3 tangent;      // unit, across the normal; matters only if the two alphas differ
-  vec2 alpha;        // GGX width, roughness squared, along the tangent and across it; 0.001 to 1
+  vec3 tangent;      // unit, perpendicular to the normal; used only if the two alphas differ
+  vec2 alpha;        // GGX width (roughness squared) along the tangent and perpendicular to it; 0.001 to 1
   float reflectance; // at normal incidence, 0 to 1
 };
 

@@ -1,6 +1,6 @@
 // Functions for a host's shaders that use radiance transfer. Before this text, sdk/src/gl/transfer/ defines
-// NOOK_LIGHT_VEC4_COUNT unless the material's text has already defined it. A vector has 3
-// NOOK_LIGHT_VEC4_COUNT texels: the light modes of red, then of green, then of blue.
+// NOOK_LIGHT_VEC4_COUNT unless the material's text has already defined it. A vector takes 3 *
+// NOOK_LIGHT_VEC4_COUNT texels: first the light modes for red, then for green, then for blue.
 #include "shaders/core/texels.glsl"
 
 uniform NOOK_TEXELS nook_transfer_texels;

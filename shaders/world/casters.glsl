@@ -1,10 +1,10 @@
 // Computes the openness that the casters of a frame leave at a point. The table has four texels for each
-// body. The first holds the centre of the body's sphere, and one number that combines strength over cut-off
-// with the radius. The second holds the texel of the first part, the number of parts, and a squared distance.
-// The other two hold a capsule, which replaces the body from this distance on. A part has four texels, too:
-// its centre and a squared distance; the texel of its first caster and the number of casters; and a capsule
-// in two texels. Each capsule is stored as its two ends, with their radii for AO. Props and occluders are
-// bodies with one part and one caster.
+// body. The first holds the centre of the body's sphere, and one number that encodes both its radius and
+// strength / cut-off. The second holds the texel of the first part, the number of parts, and a squared
+// distance. The other two hold a capsule, which replaces the body from this distance on. A part has four
+// texels, too: its centre and a squared distance; the texel of its first caster and the number of casters;
+// and a capsule in two texels. Each capsule is stored as its two ends, with their radii for AO. Props and
+// occluders are bodies with one part and one caster.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/coverage.glsl"
 #ifdef NOOK_COLOURED
@@ -30,7 +30,7 @@ int nook_world_tested = 0;
 #define nook_world_part_texel(number) nook_texel(nook_world_casters, number)
 #endif
 
-// The share of a body's casters that counts in this stage.
+// The weight that the casters of the current body have in this stage.
 float nook_world_weight = 1.0;
 bool nook_world_far_bodies = NOOK_BODIES == NOOK_FAR_BODIES;
 

@@ -14,7 +14,7 @@ uniform sampler2D nook_host_normal;
 uniform int nook_world_first_tile;
 uniform int nook_world_tile_columns;  // 0: no body reaches the view
 uniform int nook_world_tile_size;     // pixels along a side
-uniform int nook_world_counts;        // not 0: the nook_world_view that shows counts divided by 255
+uniform int nook_world_counts;        // not 0: a nook_world_view, which shows counts divided by 255
 
 #ifdef NOOK_LAYERED
 bool nook_world_replaced(ivec2 pixel, float above) {

@@ -60,8 +60,9 @@ vec3 nook_world_open_light(vec3 normal, float ao) {
   return clamp(1.0 - (1.0 - ao) / max(nook_world_taken.scalar, 1e-12) * ratio, 0.0, 1.0);
 }
 
-// First the axes of the cone's parts, each with its slope. Then the axis of the cone, and its reach in
-// metres. Then the cosine and sine of a half angle: a cone with this half angle contains all parts.
+// The array begins with the axes of the cone's parts, each with its slope. Then comes the axis of the cone,
+// with its reach in metres. The last vector contains the cosine and sine of a half angle: a cone with this
+// half angle contains all parts.
 uniform vec4 nook_world_cone[NOOK_CONE_VEC4S];
 float nook_world_parts[NOOK_CONE_PARTS];
 

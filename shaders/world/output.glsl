@@ -19,8 +19,8 @@ float nook_world_finished(float open, ivec2 pixel) {
   return ao;
 }
 
-// rgb of `open` is the openness of each channel. Its alpha is the openness of the cone of light, which only
-// replacing layers change.
+// open.rgb is the openness of each channel. open.a is the openness of the cone of light. Of all layer modes,
+// only the modes that replace AO change open.a.
 vec4 nook_world_result(vec4 open, ivec2 pixel) {
 #ifdef NOOK_COLOURED
   vec4 result = vec4(nook_world_finished(open.r, pixel), nook_world_finished(open.g, pixel),

@@ -4,10 +4,10 @@
 #include "shaders/probe/capture/layout.h"
 
 uniform NOOK_TEXELS nook_table;
-uniform ivec4 nook_rows;        // the texel of the first row's first sum, sums per row, rows, the texel of the average so far
+uniform ivec4 nook_rows;        // texel of the first sum of the first row, number of sums per row, number of rows, texel of the average so far
 uniform vec2 nook_scale_share;  // a factor of the mean, and the share of this map in the average
 
-out vec4 nook_mean;  // w: the solid angle of the texels that counted, steradians
+out vec4 nook_mean;  // w: the solid angle of the texels that were used, steradians
 
 void main() {
   vec4 sum = vec4(0.0);

@@ -5,7 +5,7 @@
 #include "shaders/probe/constants.h"
 
 uniform NOOK_TEXELS nook_table;
-uniform ivec4 nook_sums_map;  // the texel of the first sum, groups of 12 sums, the texel of the map's first row, 0
+uniform ivec4 nook_sums_map;  // texel of the first sum, number of groups of 12 sums, texel of the map's first row, 0
 
 out vec4 nook_number;
 
