@@ -56,8 +56,8 @@ float nook_form_factor_exact(float xi, float delta2) {
 // reason for the formula.
 float nook_solid_depth(float d) { return d + NOOK_SOLID_DEPTH * d * d; }
 
-// Returns an approximation of the same share without inverse trigonometric functions, for the many spheres of
-// a caster. It is derived in sdk/src/character/kernel.h.
+// Approximates nook_form_factor_exact without inverse trigonometric functions. It is used for the many
+// spheres of a caster. sdk/src/character/kernel.h derives the approximation.
 float nook_form_factor_fast(float xi, float delta2) {
   float a = inversesqrt(max(delta2, 1.0));
   float a2 = a * a;

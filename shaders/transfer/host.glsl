@@ -31,8 +31,8 @@ void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUN
   }
 }
 
-// Does the same in a fragment shader, for materials with more light modes than fit into varyings: mixes the
-// vectors of a triangle's three vertices.
+// Call this function in a fragment shader if the material has more light modes than fit into varyings. It
+// interpolates the vectors of a triangle's three vertices.
 void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   vec4 corner[3 * NOOK_LIGHT_VEC4_COUNT];
   for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i) vectors[i] = vec4(0.0);
@@ -48,8 +48,8 @@ void nook_transfer_vectors(int vertex, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUN
   for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i) vectors[i] = nook_texel(nook_transfer_texels, first + i);
 }
 
-// Does the same in a fragment shader, for materials with more light modes than fit into varyings: mixes the
-// vectors of a triangle's three vertices.
+// Call this function in a fragment shader if the material has more light modes than fit into varyings. It
+// interpolates the vectors of a triangle's three vertices.
 void nook_transfer_mix(ivec3 vertices, vec3 weights, out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT]) {
   ivec3 first = vertices * (3 * NOOK_LIGHT_VEC4_COUNT);
   for (int i = 0; i < 3 * NOOK_LIGHT_VEC4_COUNT; ++i)

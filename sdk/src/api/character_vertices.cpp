@@ -104,7 +104,7 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_
   return host;
 }
 
-// Returns the name of the data that is missing to distinguish vertices at the same place.
+// Returns advice for the caller: the additional data that could distinguish vertices at the same place.
 const char* missing_evidence(const nook_vertex_match_desc& match, bool has_triangles) {
   if (!match.normals) return "give desc.normals too";
   if (!match.joints) return "give desc.joints and desc.weights too";

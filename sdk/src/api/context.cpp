@@ -10,7 +10,8 @@
 namespace nook::api {
 namespace {
 
-// A plain array of bytes, so no destructor must run when a thread ends or the library is unloaded.
+// The message is a plain array of bytes. So no destructor has to run when a thread ends or the library is
+// unloaded.
 thread_local char last_message[640] = "";
 
 }  // namespace

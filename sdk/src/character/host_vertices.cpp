@@ -55,7 +55,8 @@ bool is_chosen(const HostVertices& host, std::size_t primitive) {
   return host.primitive < 0 || static_cast<std::size_t>(host.primitive) == primitive;
 }
 
-// Returns the largest length that a metre of rest space has in the spaces of the given primitives.
+// Computes the length that one metre of rest space has in the space of each given primitive. Returns the
+// largest one.
 double largest_unit(const CharacterModel& model, const HostVertices& host) {
   if (host.in_rest_space) return 1;
   double largest = 0;

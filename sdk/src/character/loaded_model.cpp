@@ -81,7 +81,7 @@ void permute(Vector<T>& values, const Indices& order, Memory* memory) {
   values = std::move(permuted);
 }
 
-// Renumbers the key points of a level. They are in ascending order of the new numbers, too.
+// Renumbers the key points of a level. Then sorts its evaluated key points by their new numbers.
 void renumber(CharacterLevel& level, const Indices& order, const Indices& place, Memory* memory) {
   const auto new_number = [&](std::uint32_t e) { return place[level.evaluated[e]]; };
   Indices sorted(level.evaluated.size(), 0u, memory);

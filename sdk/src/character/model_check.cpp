@@ -16,7 +16,8 @@ constexpr std::size_t max_indexed = 65536;  // number of values of a 16-bit inde
 bool within(float value, float low, float high) {
   return value >= low && value <= high;
 }  // the comparison is false for NaN
-// The tolerance of 1e-3 is far above rounding and quantisation, and far below any intended difference.
+// The tolerance of 1e-3 is far above rounding and quantisation errors. A vector that was never normalised
+// normally differs by far more.
 bool is_unit(Vec3 n) {
   return within(dot(n, n), 1 - 2e-3f, 1 + 2e-3f);
 }

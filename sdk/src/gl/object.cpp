@@ -71,7 +71,7 @@ bool Buffer::end_write() {
   const Functions& gl = device_->gl;
   if (gl.can.maps) return gl.UnmapBuffer(GL_ARRAY_BUFFER) == GL_TRUE;
   gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(staging_->size()), staging_->data());
-  staging_.reset();  // frees the memory: these writes are rare, and AO is large
+  staging_.reset();  // free the memory, because AO is large and such writes are rare
   return true;
 }
 

@@ -37,7 +37,8 @@ void check_directions(const Vector<Vec3>& directions, const Check& check) {
   check.range("the number of directions", directions.size(), 1, max_directions);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vec3 d = directions[i];
-    // The tolerance of 1e-3 is far above rounding errors, and far below any intended difference in length.
+    // The tolerance of 1e-3 is far above rounding errors. A vector that was never normalised normally differs
+    // by far more.
     if (!(std::abs(length(d) - 1) <= 1e-3f) || !(d.z >= 0))
       throw Failure(check.code,
                     "direction %zu of the %s is not a unit vector of the upper hemisphere (got %g %g %g)", i,

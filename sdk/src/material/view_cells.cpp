@@ -48,8 +48,10 @@ void mix_three(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewC
     }
 }
 
-// Returns step + 1 for the half of a cell on the side `towards` of an axis. `at` is the cell's index along
-// the axis. `distance` is the offset in the arrays from a cell to the next one along the axis.
+// Finds the neighbour with which one half of a cell blends. `towards` is -1 or 1, and selects the half. The
+// neighbour must have the same terms as the cell. Returns 1 plus the step to the neighbour along the axis, or
+// 1 if there is no such neighbour. `at` is the cell's index along the axis. `distance` is the offset in the
+// arrays from a cell to the next one along the axis.
 std::uint32_t step_code(const ViewCells& cells, std::size_t number, std::int64_t at, std::int64_t distance,
                         int towards) {
   const std::uint16_t* const own = &cells.rows.membership[number * cells.terms];

@@ -62,7 +62,7 @@ void meet_bands(const LightBands& bands, const double* factor, std::uint32_t cou
       system[j * rows + other] = sum;
     }
   }
-  if (cholesky(system.data(), rows, 0) < rows) return;  // functions nearly vanish: no valid digits
+  if (cholesky(system.data(), rows, 0) < rows) return;  // if functions are nearly 0, no digit is valid
   for (std::size_t channel = 0; channel < 3; ++channel)
     cholesky_solve(system.data(), rows, y.data() + channel, 3);
   for (std::size_t j = 0; j < rows; ++j)

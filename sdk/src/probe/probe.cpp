@@ -45,13 +45,13 @@ struct Between {
 Between between(float position, float origin, float spacing, std::uint32_t count) {
   const float last = float(count - 1);
   const float at = (position - origin) / spacing;
-  const float clamped = at > 0 ? std::min(at, last) : 0.0f;  // 0 also for NaN
+  const float clamped = at > 0 ? std::min(at, last) : 0.0f;  // NaN gives 0, too
   const auto first = std::min(std::uint32_t(clamped), count - 1);
   return {first, std::min(first + 1, count - 1), clamped - float(first)};
 }
 
 float between(float value, float least) {
-  return value > least ? std::min(value, 1 - least) : least;  // the bound also for NaN
+  return value > least ? std::min(value, 1 - least) : least;  // NaN gives the bound `least`
 }
 
 // The maximum magnitude of a plane's components. Files and textures store planes as half floats, whose
@@ -101,7 +101,7 @@ GridPlace place_in(const Grid& grid, Vec3 position_ws) {
   std::array<std::uint32_t, 3> low;
   for (std::size_t k = 0; k < 3; ++k) {
     const float last = float(cells[k] - 1);
-    low[k] = at[k] > 0 ? std::uint32_t(std::min(at[k], last)) : 0;  // 0 also for NaN
+    low[k] = at[k] > 0 ? std::uint32_t(std::min(at[k], last)) : 0;  // NaN gives 0, too
   }
   GridPlace place;
   place.cell = (std::size_t(low[2]) * cells[1] + low[1]) * cells[0] + low[0];

@@ -14,7 +14,7 @@ constexpr int mantissa_bits = 9;
 constexpr int exponent_bias = 15;
 
 float in_range(float channel) {
-  return channel > 0 ? std::min(channel, max_rgb9e5) : 0.0f;  // 0 also for NaN
+  return channel > 0 ? std::min(channel, max_rgb9e5) : 0.0f;  // NaN gives 0, too
 }
 
 }  // namespace

@@ -68,8 +68,8 @@ TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius) {
 }
 
 TileRange shaded_tiles(const TileGrid& grid, Vec3 centre, float radius, const Shadow& shadow) {
-  // Divides the path into steps so short that a sphere around each step's spheres is not much larger than
-  // they are. The last step covers the remaining path.
+  // Divides the length of the shadow into steps. Each step is so short that a sphere that contains this part
+  // of the shadow is not much larger than the shadow is wide. The last step covers the remaining length.
   constexpr int most_steps = 12;
   TileRange all;
   float from = 0;

@@ -5,7 +5,7 @@
 
 vec4 nook_neural_rectified(vec4 sum) { return max(sum, nook_neural_leak * sum); }
 
-// Raises a direction to the lowest sampled direction if it is lower.
+// If a direction is lower than the lowest sampled direction, raises it to the same height.
 vec3 nook_neural_raised(vec3 d, float lowest) {
   return d.z >= lowest ? d : vec3(d.xy * (sqrt(1.0 - lowest * lowest) / max(length(d.xy), 1e-6)), lowest);
 }

@@ -104,7 +104,8 @@ const char* kind_of(std::string_view uniform) {
   return "a material";
 }
 
-// Throws Failure for a program that has none of the upload's samplers.
+// Throws the Failure for a program without any sampler of this upload. If the program has a sampler of
+// another kind of upload, the message names it.
 [[noreturn]] void fail_kind(const gl::Functions& gl, GLuint program, const nook_gl_upload_info& info) {
   for (const Mark& mark : marks)
     if (gl.GetUniformLocation(program, mark.uniform) >= 0)

@@ -97,7 +97,8 @@ void AoOutput::write_packed(const VertexValues& source, const BufferTarget& targ
   };
   draw(0, whole, each);
   draw(whole, 1, source.vertices - whole * each);
-  // The vertex array must not keep the host's or a chunk's buffer in use.
+  // Afterwards, the vertex array must not refer to the buffer of the host or of a chunk. Otherwise it would
+  // keep a deleted buffer alive.
   FeedbackTarget::end(device_);
 }
 

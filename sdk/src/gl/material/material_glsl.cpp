@@ -114,9 +114,9 @@ void add_choice(String& out, std::uint32_t arrays, std::uint32_t most, Fetch&& f
   }
 }
 
-// Writes the samplers of the spatial modes, and the function that fetches four modes. The function's
-// parameter `mode` is an index among the modes of a cluster, in which modes that are not in blocks come
-// first.
+// Writes the samplers of the spatial modes, and the function that fetches four modes. The parameter `mode` of
+// this function is an index into the modes of a cluster. In the order of these modes, modes that are not
+// stored in blocks come first.
 void add_modes(String& out, const material::TensorTables& t, const char* name, std::uint32_t max_layers) {
   const std::uint32_t whole = t.whole_modes() * t.view_vec4_count,
                       packed = t.packed_modes * t.view_vec4_count;

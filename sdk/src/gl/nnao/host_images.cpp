@@ -104,7 +104,7 @@ GLint type_of(const BoundTexture& texture, GLenum channel) {
   return ask_attached(texture, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
 }
 
-// Binds and checks a texture. It stays bound.
+// Binds and checks a texture. The texture is still bound when the function returns.
 BoundTexture bind_checked(const Device& device, const HostImages& images, ImageFacts& facts,
                           const TextureKind& kind, std::uint32_t name, GLuint framebuffer,
                           const char* field) {
