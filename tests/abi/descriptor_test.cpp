@@ -103,7 +103,7 @@ TEST_CASE("a descriptor of another type, and an unknown type, are refused by nam
   CHECK(last_mentions("nook_desc_init: type is unknown (got 0"));
 }
 
-TEST_CASE("a descriptor that is not understood is refused with its field") {
+TEST_CASE("if a descriptor is refused, the message names the field that is not understood") {
   Stage stage;
   nook_scene scene = nullptr;
   nook_scene_desc desc{};

@@ -260,7 +260,7 @@ TEST_CASE("more transforms than needed are taken with a flag, and logged once wi
   CHECK(has(nook_last_message(), "desc.transform_count"));
 }
 
-TEST_CASE("a clip at an uneven place is logged once for an instance and once for what is read") {
+TEST_CASE("a clip at an uneven place is logged once for an instance and once for reading its pose") {
   const std::uint32_t strict = GENERATE(0u, 1u);
   LogStage log(strict);
   const std::vector<std::byte> bytes = nook::write_clip_set(sample_clips(sample_model()).set);

@@ -187,14 +187,14 @@ TEST_CASE("a pose that is refused leaves the instance as it was") {
   CHECK(stage.ao == before);
 }
 
-TEST_CASE("a pose is of skinning matrices in columns unless its descriptor says otherwise") {
+TEST_CASE("by default, a pose consists of skinning matrices, stored as 4x4 columns") {
   nook_pose_desc desc;
   REQUIRE(nook_pose_desc_init(&desc) == NOOK_OK);
   CHECK(desc.kind == NOOK_POSE_SKINNING);
   CHECK(desc.layout == NOOK_TRANSFORM_COLUMNS_4X4);
 }
 
-TEST_CASE("a model without bind data takes rest-to-world matrices alone, and the message names the cure") {
+TEST_CASE("a model without bind data accepts only rest-to-world matrices, and the message says what to do") {
   const Stage stage;
   nook::CharacterModel unbound = sample_model();
   unbound.bind = nook::BindData();

@@ -176,7 +176,7 @@ TEST_CASE("world: a body follows its pose without an update, and none darkens af
   for (const float value : stage.ao(desc)) CHECK(value == 1);
 }
 
-TEST_CASE("world: what the cut-off leaves out of a point is less than it for each body") {
+TEST_CASE("world: a body that is left out at a point reduces AO there by less than the cut-off") {
   constexpr float cutoff = 0.05f;
   WorldStage whole, cut(cutoff);
   // Rows that are farther apart, so that blocks of points lie at several distances.
@@ -201,7 +201,7 @@ TEST_CASE("world: points that are not finite are open, and do not disturb others
   for (std::size_t i = 0; i < after.size(); ++i) CHECK(after[i] == (i == 5 || i == 9 ? 1 : before[i]));
 }
 
-TEST_CASE("world: strides skip what lies between, and sampling does not allocate") {
+TEST_CASE("world: strided positions and normals give the same AO, and sampling does not allocate") {
   WorldStage stage;
   nook_world_sample_desc desc = stage.desc();
   const std::vector<float> before = stage.ao(desc);

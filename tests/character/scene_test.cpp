@@ -234,7 +234,7 @@ TEST_CASE("every instruction set and every division among threads gives the same
       CHECK(largest_difference(run(nook_isa(isa), {}), scalar) < 5e-5f);
 }
 
-TEST_CASE("a stride leaves what lies between alone") {
+TEST_CASE("a stride does not change the bytes between the values") {
   Scene scene = make_scene();
   const auto model = load(sample_model(8));
   const nook_instance_id id = add_instance(scene, model);

@@ -154,7 +154,7 @@ TEST_CASE("nnao: both paths give the same AO with other taps and the paper's for
   }
 }
 
-TEST_CASE("nnao: the own texture changes in the viewport alone") {
+TEST_CASE("nnao: the pass's own texture changes only inside the viewport") {
   NOOK_NEED_CONTEXT(context);
   const Camera camera = plain_camera(1.5f);
   const Picture picture = look(camera, still_life(), 30, 20);

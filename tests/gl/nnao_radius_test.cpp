@@ -114,7 +114,7 @@ TEST_CASE("nnao: lengths may have any unit, if all of them have it") {
   }
 }
 
-TEST_CASE("nnao: a share of the scene is the radius in metres that follows from it") {
+TEST_CASE("nnao: a radius relative to the scene gives the same AO as this radius in metres") {
   NOOK_NEED_CONTEXT(context);
   Fixture fixture(context);
   const Camera camera = plain_camera(float(width) / height);

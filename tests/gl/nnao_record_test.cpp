@@ -249,7 +249,7 @@ TEST_CASE("nnao: depth and normals of every format are recorded as the shaders r
     }
 }
 
-TEST_CASE("nnao: of a part of an image the part alone is recorded") {
+TEST_CASE("nnao: if the viewport is a part of an image, only this part is recorded") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);
   const Camera camera = plain_camera(1.5f);
@@ -399,7 +399,7 @@ TEST_CASE("nnao: recording refuses what it cannot record, and every refused allo
   CHECK(context.gl().GetError() == GL_NO_ERROR);
 }
 
-TEST_CASE("nnao: a frame with numbers that are none is recorded as it is") {
+TEST_CASE("nnao: depths that are negative or not finite are recorded unchanged") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);
   const int width = 16, height = 16;

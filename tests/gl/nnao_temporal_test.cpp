@@ -133,7 +133,7 @@ TEST_CASE("nnao: a mean over frames is the reference's, for still and for moving
   }
 }
 
-TEST_CASE("nnao: the first frame and a cut are that frame alone") {
+TEST_CASE("nnao: the first frame and the frame after a cut do not use the history") {
   NOOK_NEED_CONTEXT(context);
   for (const int half : {0, 1}) {
     Sequence sequence(context, half);
@@ -181,7 +181,7 @@ TEST_CASE("nnao: the noise of a mean over frames falls, and a flat wall keeps it
   CHECK(noise_last < 0.3 * noise_first);
 }
 
-TEST_CASE("nnao: what was hidden before begins anew, and leaves no trail") {
+TEST_CASE("nnao: a surface that was hidden before starts without history, and leaves no trail") {
   NOOK_NEED_CONTEXT(context);
   Sequence sequence(context);
   const std::vector<Surface> wall{plane_through({0, 0, -4}, {0, 0, 1})};

@@ -86,7 +86,7 @@ TEST_CASE("three directions round a point interpolate linearly, and no fourth is
   }
 }
 
-TEST_CASE("a sampled direction takes its own value") {
+TEST_CASE("interpolation at a sampled direction returns the sampled value") {
   const auto directions = rings();
   const DirectionMesh mesh(directions);
   std::size_t hint = 0;

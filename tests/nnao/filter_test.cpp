@@ -137,7 +137,7 @@ TEST_CASE("the filter takes no pixel behind an edge, though that one is connecte
         std::array<float, 5>{1.0f / 3, 2.0f / 3, 1, 2.0f / 3, 1.0f / 3});
 }
 
-TEST_CASE("the filter leaves apart what differs too much") {
+TEST_CASE("the filter does not average values that differ too much") {
   const Picture picture = plane({0, 0, 1}, false);
   const std::vector<std::uint8_t> edges = edges_of(picture, 0.05f);
   std::vector<float> ao(width * height, 0.9f);

@@ -251,7 +251,7 @@ TEST_CASE("growing weights damp the first samples") {
   CHECK(with_growth < 0.2 * without);  // (18 / 1720)^2 of the weight against (200 / 2200)^2
 }
 
-TEST_CASE("a seed starts a running average nearer its end") {
+TEST_CASE("with a seed, a running average starts closer to its final value") {
   const test::Samples early = test::sample(1, 300, sky), samples = test::sample(2, 100, sky);
   const Basis basis = vogel_basis(12);
   const auto gram = basis_gram(basis);

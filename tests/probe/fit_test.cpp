@@ -222,7 +222,7 @@ TEST_CASE("the original form is the corrected one with another step") {
   }
 }
 
-TEST_CASE("the original and the corrected target meet where the derivation says") {
+TEST_CASE("the original and the corrected target are equal where the derivation predicts it") {
   // One lobe, v = (1 - B) b: with b's mean b written as the sample b B / M, both targets are B (1 - B) b / D.
   const Vec3 axis[] = {{0, 0, 1}};
   const float sharpness[] = {6};

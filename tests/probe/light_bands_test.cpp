@@ -114,7 +114,7 @@ TEST_CASE("lobes have the light's harmonics of bands 0 to 2") {
   }
 }
 
-TEST_CASE("what the bands leave free is least squares") {
+TEST_CASE("with exact bands, the other degrees of freedom are fitted by least squares") {
   // Of all coefficients with these bands no others have less square error: its slope, G b - m, has no part
   // along directions that leave the bands alone, and is a sum of the bands' rows.
   const Basis basis = vogel_basis(12);

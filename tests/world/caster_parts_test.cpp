@@ -72,7 +72,7 @@ TEST_CASE("caster parts: each caster is in one part, beside its neighbours") {
   CHECK(world::parts_of({}).count == 0);
 }
 
-TEST_CASE("caster parts: one capsule of even ends stays as it is") {
+TEST_CASE("caster parts: a single capsule with equal radii is not changed") {
   const std::vector<PosedCaster> one{{{{0.2f, 0, 0}, {0.2f, 0.6f, 0}, 0.1f, 0.1f}, 1}};
   const Capsule c = world::merged(one, all_of(1));
   CHECK(std::abs(c.radius_a - 0.1f) < 1e-5f);

@@ -51,7 +51,7 @@ TEST_CASE("cone: the parts share the solid angle, and stay inside the cone") {
   }
 }
 
-TEST_CASE("cone: a capsule that fills it hides all, one aside or behind nothing") {
+TEST_CASE("cone: a capsule that fills the cone hides all of it, one beside or behind it nothing") {
   const world::ConeParts parts = world::cone_parts_of({0, 0, 1}, 0.2f);
   CHECK(hidden_share({{-3, 0, 2}, {3, 0, 2}, 1.5f, 1.5f}, parts) == 1);
   CHECK(hidden_share({{2, 0, 2}, {2, 1, 2}, 0.3f, 0.3f}, parts) == 0);

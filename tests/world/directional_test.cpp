@@ -177,7 +177,7 @@ TEST_CASE("directional: a shadow falls away from the light") {
   CHECK(1 - behind.open.g < 0.6f * (1 - behind.ao));
 }
 
-TEST_CASE("directional: a planted lobe over a floor darkens it as by rays, from above and aslant") {
+TEST_CASE("directional: a caster's shadow in one lobe agrees with ray tracing, from above and aslant") {
   const Capsule sphere{{0, 0, 1}, {0, 0, 1.001f}, 0.3f, 0.3f},
       standing{{0, 0, 0.15f}, {0, 0, 1.5f}, 0.15f, 0.15f};
   // Of the squared error of AO, with a third of margin over what was found; an upright capsule under light

@@ -39,7 +39,7 @@ struct TubeDesc {
 
 }  // namespace
 
-TEST_CASE("a character from memory is what was given") {
+TEST_CASE("a character that was imported from memory equals the given arrays") {
   const Character character = tube_character();
   REQUIRE(character);
   nook_bake_character_info info{};

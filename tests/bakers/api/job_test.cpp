@@ -83,7 +83,7 @@ TEST_CASE("the same seed gives the same bytes on any number of threads") {
   CHECK(model_of(start(character, desc)) != one);
 }
 
-TEST_CASE("two bakes at once are what each is alone") {
+TEST_CASE("two bakes at the same time give the same results as each one alone") {
   const Character character = tube_character();
   nook_bake_character_desc desc = small_bake();
   const std::vector<char> alone = model_of(start(character, desc));

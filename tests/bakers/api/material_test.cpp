@@ -422,7 +422,7 @@ TEST_CASE("the paper's form of a material has half floats, no view map and the p
   CHECK(refused(desc, "desc.form is unknown (got 2)"));
 }
 
-TEST_CASE("what a material cannot be baked from is named") {
+TEST_CASE("if input cannot be baked to a material, the message names the cause") {
   nook_bake_material_desc desc = small_weave();
   desc.meso = "marble";
   CHECK(refused(desc, "marble"));

@@ -182,7 +182,7 @@ std::int32_t watch(void* user, const nook_bake_progress* progress) {
 
 }  // namespace
 
-TEST_CASE("tracing tells its progress, and ends where that returns 0 without writing") {
+TEST_CASE("tracing reports its progress, and stops without writing if the callback returns 0") {
   const Square square(1, 2);
   Scene scene;
   scene.meshes = {square.mesh()};

@@ -95,7 +95,7 @@ TEST_CASE("clusters are connected and have the given number") {
   }
 }
 
-TEST_CASE("centres of rotation turn a limb's normals away from its axis") {
+TEST_CASE("with centres of rotation, no normal of a limb points towards its axis") {
   const SkinnedMesh mesh = bending_tube();
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   std::vector<Vec3> normal;

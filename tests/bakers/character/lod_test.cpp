@@ -43,7 +43,7 @@ HostVertices host_of(const std::vector<Vec3>& position, const std::vector<Vec3>&
 
 }  // namespace
 
-TEST_CASE("a mesh resampled at its own vertices has its own AO, and between them what lies between") {
+TEST_CASE("a mesh resampled at its own vertices keeps its AO, and between vertices AO is interpolated") {
   const SkinnedMesh mesh = bending_tube();
   const CharacterModel model = baked_tube(mesh);
   std::vector<Vec3> normal;
@@ -73,7 +73,7 @@ TEST_CASE("a mesh resampled at its own vertices has its own AO, and between them
   CHECK(sum / double(middle.size()) < 0.02);
 }
 
-TEST_CASE("vertices refitted to a mesh of less detail are nearer to its truth than those at the same place") {
+TEST_CASE("vertices refitted to a coarser mesh have a smaller error than vertices resampled by position") {
   const SkinnedMesh mesh = bending_tube(36, 16);
   const CharacterModel model = baked_tube(mesh);
   const LodMesh lod = simplified(mesh, 0.25);

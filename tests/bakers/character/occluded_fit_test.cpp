@@ -32,7 +32,7 @@ TEST_CASE("a sphere over a point blocks the vector of its closed form, in any po
   }
 }
 
-TEST_CASE("a line over AO is found, and stays where AO says nothing") {
+TEST_CASE("a line over AO is recovered, and without observations the ends keep their prior") {
   const Vec3 dark{0.3f, -0.2f, 0.5f}, open{0.1f, 0.05f, -0.1f};
   OccludedLine planted;
   for (int i = 0; i < 200; ++i) {

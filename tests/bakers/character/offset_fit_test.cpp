@@ -72,7 +72,7 @@ TEST_CASE("a planted constant and a planted scale of each vertex are found from 
   CHECK(moved > 0.1);
 }
 
-TEST_CASE("what is black may be predicted below black") {
+TEST_CASE("if the targets are black, a prediction far below black is kept") {
   const SkinnedMesh mesh = bending_tube(16, 10);
   const CharacterModel model = baked_tube(mesh);
   const std::vector<Pose> poses = tube_poses(mesh, 20);

@@ -49,7 +49,7 @@ TEST_CASE("a family of clips stays on one side") {
   CHECK(names_of(character, split.measured) == Names{"Dance", "Roll"});
 }
 
-TEST_CASE("no family straddles the split, however its clips are named") {
+TEST_CASE("clips of one family are never on both sides of the split, whatever their names are") {
   const auto split_of = [](std::initializer_list<const char*> names) {
     const ImportedCharacter character = with_clips(names);
     const ClipSplit split = split_families(character, motion_clips(character));

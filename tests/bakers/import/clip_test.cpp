@@ -109,7 +109,7 @@ TEST_CASE("clip names are unique and never empty") {
     CHECK(find_clip(character, character.clips[i].name) == i);
 }
 
-TEST_CASE("an unknown clip is refused with the names there are") {
+TEST_CASE("an unknown clip is refused, and the message lists the existing clips") {
   GltfBuilder file = tube_file();
   file.add_animation("walk");
   file.add_channel(2, "translation", {0}, {0, 1, 0});

@@ -186,7 +186,7 @@ TEST_CASE("a vertex without weights follows its own first joint") {
   contains(failure_of(tube_file(odd)), "has no weights and names joint 9 (skin has 2)");
 }
 
-TEST_CASE("what has one reading is read with a warning") {
+TEST_CASE("a fault that can be read in only one way is read with a warning") {
   GltfBuilder file = tube_file();
   Json& nodes = file.document["nodes"];
   const std::size_t before = load(file).warnings.size();

@@ -77,7 +77,7 @@ GltfBuilder square_scene() {
 
 }  // namespace
 
-TEST_CASE("hidden nodes and what hangs on them are not geometry") {
+TEST_CASE("hidden nodes and their descendants are not imported") {
   const ImportedCharacter plain = load(tube_file());
   GltfBuilder file = tube_file();
   const int hull = add_body(file, "hull");
@@ -114,7 +114,7 @@ TEST_CASE("a hidden joint still poses, and a hidden armature hides its meshes") 
   CHECK(contains(failure_when(NOOK_ERROR_BAD_FILE, [&] { load(file); }), "visible is not true or false"));
 }
 
-TEST_CASE("what is scaled to nothing is not geometry") {
+TEST_CASE("nodes that are scaled to 0 are not imported") {
   GltfBuilder file = square_scene();
   file.document["nodes"].push_back({{"name", "gone"}, {"mesh", 0}, {"scale", {0, 0, 0}}});
   file.document["nodes"][0]["children"].push_back(2);
@@ -155,7 +155,7 @@ TEST_CASE("lower levels of detail are left out by name") {
   CHECK(has_warning(shown.warnings, "1 mesh is a lower level of detail and was left out: "));
 }
 
-TEST_CASE("the finest of lower levels stands for the model where there is nothing else") {
+TEST_CASE("if a model has only lower levels of detail, the finest of them is imported") {
   GltfBuilder file = tube_file();
   file.document["nodes"][3]["name"] = "Body_LOD2";
   add_body(file, "Body_LOD1");
@@ -222,7 +222,7 @@ TEST_CASE("scenes and shapes of materials are chosen as characters are") {
   CHECK(import_surface(file.glb()).mesh.triangle.size() == 2);
 }
 
-TEST_CASE("instances of a mesh stand where nodes of their own would") {
+TEST_CASE("instances of a mesh have the same positions as separate nodes would have") {
   // A quarter turn about z, as shorts and as floats: 32767 / 32767 * sqrt(1/2) rounds to 23170.
   const float h = std::sqrt(0.5f);
   const std::vector<float> at = {2, 0, 0, 0, 3, 0}, scale = {1, 1, 1, 2, 2, 2},

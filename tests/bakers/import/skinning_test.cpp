@@ -58,7 +58,7 @@ TEST_CASE("normals weigh faces by area") {
   CHECK(distance(n[3], {1, 0, 0}) < 1e-6f);
 }
 
-TEST_CASE("faces that cancel out leave the normal of one of them") {
+TEST_CASE("if the normals of two faces cancel out, the vertex gets the normal of one face") {
   const std::vector<Vec3> p = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
   for (const Vec3 n : normals({{0, 1, 2}, {0, 2, 1}}, p)) CHECK(distance(n, {0, 0, 1}) < 1e-6f);
 }

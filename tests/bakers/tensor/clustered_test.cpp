@@ -271,7 +271,7 @@ TEST_CASE("tensors of no or one direction, as of a mask that is visible everywhe
   }
 }
 
-TEST_CASE("an N-SVD is one cluster of all") {
+TEST_CASE("an N-SVD can be written as a clustered fit with one cluster") {
   const Tensor a = waves({4, 12, 8, 8});
   const Nsvd fit = fit_nsvd(a, {{2, 5, 4, 8}});
   const ClusteredFit one = as_one_cluster(fit, 1);

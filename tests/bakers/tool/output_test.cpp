@@ -150,7 +150,7 @@ TEST_CASE("a symbolic link is replaced, and what it points to stays") {
   CHECK(has(read_text(folder.path("new.json")), "rows"));
 }
 
-TEST_CASE("links in a circle are an error") {
+TEST_CASE("symbolic links that form a cycle are an error") {
   const TestFolder folder;
   fs::create_symlink("b", folder.path("a"));
   fs::create_symlink("a", folder.path("b"));

@@ -322,7 +322,7 @@ TEST_CASE("a depfile names what a bake reads, with the escapes of Ninja") {
   CHECK(has(same.error, "--depfile"));
 }
 
-TEST_CASE("the report is complete before the model is there") {
+TEST_CASE("the report is complete before the model file exists") {
   const TestFolder folder;
   write_text(folder.path("hero.glb"), glb_tube({"bend"}));
   // Nothing fits onto this device, so that the last step of the bake fails.
