@@ -24,8 +24,8 @@ layout(location = NOOK_LOCATION_SPHERE_COUNT) uniform uint nook_sphere_count;
 layout(location = NOOK_LOCATION_FIRST_KEY_POINT) uniform uint nook_first_key_point;  // first key point of the level of detail
 layout(location = NOOK_LOCATION_KEY_POINT_COUNT) uniform uint nook_key_point_count;
 layout(location = NOOK_LOCATION_GAMMA) uniform float nook_gamma;
-layout(location = NOOK_LOCATION_COMPOSED) uniform int nook_composed;  // 0: added spheres are summed in the
-                                                                      // same norm as the body's own
+layout(location = NOOK_LOCATION_COMPOSED) uniform int nook_composed;  // 0: the casters' spheres are in the same
+                                                                      // norm as the body's own spheres
 layout(location = NOOK_LOCATION_SHADOW_STRIDE) uniform uint nook_shadow_stride;
 layout(location = NOOK_LOCATION_SHADOW_OFFSET) uniform uint nook_shadow_offset;  // offset within the instance's shadows
 

@@ -13,7 +13,7 @@ struct NookProbeSurface {
 struct NookProbeSurfaceView {
   vec3 tangent, bitangent;
   vec2 view;         // along tangent and bitangent
-  vec2 stretched;    // the plane of incidence among round slopes: a unit vector along both
+  vec2 stretched;    // direction of the plane of incidence in the space where slopes are isotropic, a unit vector
   float facing;
   vec2 alpha2;       // squared width of slopes in the plane of incidence and across it
   float openness;

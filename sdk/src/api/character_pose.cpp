@@ -60,7 +60,7 @@ PoseSource nook::api::source_of(const CharacterModel& model, const nook_pose_des
 
 namespace {
 
-// Returns the vertices of the check, with their positions as the caller passed them.
+// Returns the vertices that the pose check compares, at the positions that the caller passed.
 nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const nook_pose_check_desc& check,
                                              nook::Memory* memory) {
   constexpr std::uint32_t min_vertices = 8;

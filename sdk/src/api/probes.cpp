@@ -117,8 +117,9 @@ Probes probes_of(const nook_probe_desc& desc, nook::Memory* memory) {
   return probes;
 }
 
-// True if glossy reflection must use the amplitudes of the light, and some of these are negative. Files of
-// older versions have no separate amplitudes for glossy reflection.
+// Returns true if the probes have no separate amplitudes for glossy reflection, and some amplitudes of their
+// light are negative. Glossy reflection must then use these amplitudes. This occurs in files of older
+// versions.
 bool lacks_gloss(const Probes& probes) {
   return probes.basis.kind == BasisKind::gaussians && !probes.has_gloss() &&
          std::any_of(probes.coefficients.begin(), probes.coefficients.end(), [](Vec3 v) {

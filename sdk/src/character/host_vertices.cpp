@@ -18,7 +18,8 @@ Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
                      m[2] * n.x + m[6] * n.y + m[10] * n.z});
 }
 
-// Returns the position of a close vertex, bit-exact as in the file.
+// Returns the position of a close vertex with exactly the bits of the file. It is transformed if it is needed
+// in rest space.
 Vec3 exact_position(const CloseVertex& vertex, const Affine& rest_from_mesh, bool in_rest_space) {
   return in_rest_space ? transform(rest_from_mesh, vertex.mesh_position) : vertex.mesh_position;
 }

@@ -31,7 +31,7 @@ std::uint32_t block_count_of(std::size_t vertices) {
 // vertices use, in ascending order. If the number of columns is odd, the last one is repeated.
 struct Columns {
   Vector<std::uint16_t> key_point;
-  Vector<std::uint32_t> first;  // first column of each block, then the total number
+  Vector<std::uint32_t> first;  // first column of each block, then the number of columns
 
   Columns(const CharacterModel& model, const Vector<std::uint32_t>& order, Memory* memory)
       : key_point(memory), first(memory) {

@@ -75,8 +75,8 @@ void check_bent_normals(const CharacterModel& model) {
     throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without rest normals; bake it again");
 }
 
-// First writes the AO of each vertex as a byte into `out`, and later reads it back from there. In this way,
-// nothing is allocated.
+// First writes the AO of each vertex as a byte into `out`, and later reads it back from there. So the
+// function needs no allocation.
 void read_bent_normals(const Scene& scene, const Instance& instance, std::int8_t* out,
                        std::size_t stride_bytes) noexcept {
   read_ao_as(scene, instance, NOOK_FORMAT_UNORM8, out + 3, stride_bytes);

@@ -36,8 +36,8 @@ struct Fit {
   const Candidate* candidate = nullptr;
   float distance = 0;               // host's unit
   float facing = 1;                 // the cosine between the normals; 1 if there are no normals
-  float side = 1;                   // the same with the normal of the host's triangles; equals `facing` if
-                                    // the host gave no triangles
+  float side = 1;                   // the cosine to the normal of the host's triangles; equals `facing` if
+                                    // the host passed no triangles
   float weights = unknown_weights;  // the sum of absolute differences
 };
 using Fits = Vector<Fit>;

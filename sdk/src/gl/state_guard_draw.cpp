@@ -6,7 +6,7 @@
 namespace nook::gl {
 namespace {
 
-// Changes only the value of draw buffer 0 or viewport 0 if OpenGL has separate values.
+// If OpenGL has a separate value for each draw buffer or viewport, changes only the value with index 0.
 void set_enabled_0(const Functions& gl, GLenum capability, bool enabled) {
   if (!gl.can.indexed_draw_buffers)
     set_enabled(gl, capability, enabled);
@@ -143,7 +143,7 @@ void restore_samplers(const Functions& gl, const SavedState& s) {
 }
 
 void query_filter_texture(const Functions& gl, SavedState& s) {
-  if (!gl.can.texture_buffers) return;  // without texture buffers, it is one of the 2D textures
+  if (!gl.can.texture_buffers) return;  // then the texture is one of the 2D textures
   gl.ActiveTexture(GL_TEXTURE0 + filter_unit);
   s.filter_texture = integer(gl, GL_TEXTURE_BINDING_BUFFER);
   gl.ActiveTexture(s.active_texture);

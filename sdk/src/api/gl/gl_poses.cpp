@@ -10,8 +10,8 @@ using namespace nook;
 
 namespace {
 
-// Checks those values of the descriptor that do not depend on the instances. Throws Failure if one of them is
-// not usable.
+// Checks the fields of the descriptor that do not depend on the instances. Throws Failure if a field is
+// invalid.
 void check_range_of(const nook_gl_poses& poses) {
   constexpr std::size_t size = offsetof(nook_gl_poses, size) + sizeof(std::uint64_t);
   if (poses.struct_size < size)

@@ -97,7 +97,7 @@ void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool co
   drawn.cone = gl::LightCone{axis, api::half_angle_radians(desc.light_degrees), reach};
 }
 
-// The groups of the scene, and how far their AO reaches.
+// The groups of casters in the scene, and the cut-off that limits the distance at which they matter.
 struct Reaching {
   const api::Casting* casting;
   float cutoff_error;
