@@ -171,7 +171,7 @@ TEST_CASE("gloss: fits have lobes for it that are never negative, and other prob
   nook_probe given = nullptr;
   REQUIRE(nook_probe_create(stage.context, &desc, &given) == NOOK_OK);
   CHECK(nook_probe_read_gloss(given, nullptr, gloss, 12) == NOOK_ERROR_UNSUPPORTED);
-  CHECK(last_is("nook_probe_read_gloss: ", "no amplitudes for gloss"));
+  CHECK(last_is("nook_probe_read_gloss: ", "no gloss amplitudes"));
   nook_probe_destroy(&given);
 }
 
@@ -242,9 +242,9 @@ TEST_CASE("fits: bad descriptors name their field") {
   refused([](Desc& d) { d.form = 2; }, "desc.form is unknown (got 2, need 0 to 1)");
   refused([](Desc& d) { d.match_sh = 2; }, "desc.match_sh is unknown (got 2, need 0 to 1)");
   refused([](Desc& d) { d.form = NOOK_FORM_PAPER, d.match_sh = 0; },
-          "NOOK_FORM_PAPER sets the method itself");
+          "NOOK_FORM_PAPER sets desc.method and desc.match_sh itself");
   refused([](Desc& d) { d.form = NOOK_FORM_PAPER, d.method = NOOK_PROBE_FIT_RUNNING_AVERAGE; },
-          "NOOK_FORM_PAPER sets the method itself");
+          "NOOK_FORM_PAPER sets desc.method and desc.match_sh itself");
   refused([](Desc& d) { d.basis = -1; }, "desc.basis");
   refused([](Desc& d) { d.domain = 2; }, "desc.domain");
   refused([](Desc& d) { d.ambient = 2; }, "desc.ambient");
@@ -291,9 +291,9 @@ TEST_CASE("fits: bad extensions name their field") {
   refused([](Desc&, Study& s) { s.denominator = -1; }, "denominator");
   refused([](Desc&, Study& s) { s.dice = 2; }, "dice");
   refused([](Desc& d, Study& s) { d.form = NOOK_FORM_PAPER, s.method = NOOK_PROBE_FIT_STUDY_MOMENTS; },
-          "replaces the method");
+          "replaces desc.form and desc.method");
   refused([](Desc& d, Study& s) { d.method = 1, s.method = NOOK_PROBE_FIT_STUDY_MOMENTS; },
-          "replaces the method");
+          "replaces desc.form and desc.method");
   refused([](Desc&, Study& s) { s.next = &s; }, "two descriptors of one type");
   nook_probe_desc other = probe_desc();
   refused([&](Desc& d, Study&) { d.next = &other; }, "does not take (got type 10)");
@@ -426,7 +426,7 @@ TEST_CASE("probes: bad parameters and bad files") {
   desc.fits = different;
   desc.fit_count = 2;
   CHECK(nook_probe_create(stage.context, &desc, &probe) == invalid);
-  CHECK(last_is("nook_probe_create: ", "desc.fits[1] has other functions"));
+  CHECK(last_is("nook_probe_create: ", "desc.fits[1] has different functions"));
   nook_lobe lobes[64];
   CHECK(nook_probe_read_lobes(other, nullptr, lobes, 9) == invalid);
   nook_probe_destroy(&other);
@@ -558,7 +558,7 @@ TEST_CASE("lobes: bad parameters") {
   CHECK(nook_sg_specular(&good, 1, 2, &surface, rgb, 1) == invalid);
   surface.alpha_y = 0;
   CHECK(nook_sg_specular(&good, 1, 0, &surface, rgb, 1) == invalid);
-  CHECK(last_is("nook_sg_specular: ", "alpha of surface 0"));
+  CHECK(last_is("nook_sg_specular: ", "alpha_y of surface 0"));
   surface.alpha_y = 0.2f;
   surface.tangent[0] = 0;
   CHECK(nook_sg_specular(&good, 1, 0, &surface, rgb, 1) == invalid);

@@ -170,7 +170,7 @@ TEST_CASE("transfer: bad parameters and bad files") {
   const float normal[3] = {0, 0, 2}, up[3] = {0, 0, 1}, tangent[4] = {1, 0, 0, 0.5f}, right[4] = {1, 0, 0, 1};
   desc.normals = up;
   CHECK(read(5, 0) == invalid);
-  CHECK(last_has("normals or tangents"));
+  CHECK(last_has("set desc.normals and desc.tangents to NULL"));
   desc = l.vectors_desc(nullptr);
   CHECK(read(1, 0) == invalid);
   CHECK(last_has("desc.normals"));

@@ -460,7 +460,7 @@ TEST_CASE("a crowd's clips that cannot be played are refused, and nothing change
   nook_model other = load_model(twins.host.handle, sample_model(32));
   nook_instance_id stranger = 0;
   NOOK_OK_OR_FAIL(nook_scene_add_instance(twins.crowd.scene, other, &stranger));
-  refused("another model", invalid, [&](Some& s) { s[3].instance = stranger; });
+  refused("does not have the model", invalid, [&](Some& s) { s[3].instance = stranger; });
   NOOK_OK_OR_FAIL(nook_scene_remove_instance(twins.crowd.scene, stranger));
   nook_model_destroy(&other);
   CHECK(twins.difference(gl).largest <= bound_of_samples);

@@ -133,7 +133,8 @@ TEST_CASE("views are refused where there is none, and hold 1 before the first up
         NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_BENT_NORMAL, &view) ==
         NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(std::string_view(nook_last_message()).find("channel is not on the GPU") != std::string_view::npos);
+  CHECK(std::string_view(nook_last_message()).find("channel is not available on the GPU") !=
+        std::string_view::npos);
   view.struct_size = 8;
   CHECK(nook_gl_scene_view(gl, crowd.scene, crowd.ids[0], NOOK_CHANNEL_AO, &view) ==
         NOOK_ERROR_INVALID_ARGUMENT);

@@ -89,8 +89,7 @@ TEST_CASE("material: a failed upload leaves nothing behind") {
     CHECK(refused.code() == NOOK_ERROR_UNSUPPORTED);
     failure = refused.what();
   }
-  CHECK(failure.find("more textures than a shader has units (got 20 with 1 layers each") !=
-        std::string::npos);
+  CHECK(failure.find("more textures than a shader can read (got 20 with 1 layers each") != std::string::npos);
   trace.limits[GL_MAX_TEXTURE_SIZE] = 128;  // the view map has 256
   CHECK(nook_gl_upload_material(gl, loaded, &uploaded) == NOOK_ERROR_UNSUPPORTED);
   CHECK(message_has("got 256 texels, need at most 128"));
@@ -133,8 +132,8 @@ TEST_CASE("material: blocks that a context lacks are refused, and the message na
   trace.limits = {{GL_MAJOR_VERSION, 3}, {GL_MINOR_VERSION, context.is_es() ? 0 : 3}, {num_extensions, 0}};
   CHECK(create(context.is_es() ? rgtc : eac, 8) == NOOK_ERROR_UNSUPPORTED);
   CHECK(message_has(context.is_es()
-                        ? "(got NOOK_MATERIAL_BLOCKS_RGTC, need NOOK_MATERIAL_BLOCKS_EAC or PLAIN)"
-                        : "(got NOOK_MATERIAL_BLOCKS_EAC, need NOOK_MATERIAL_BLOCKS_RGTC or PLAIN)"));
+                        ? "(got NOOK_MATERIAL_BLOCKS_RGTC, need NOOK_MATERIAL_BLOCKS_EAC or _NONE)"
+                        : "(got NOOK_MATERIAL_BLOCKS_EAC, need NOOK_MATERIAL_BLOCKS_RGTC or _NONE)"));
   // WebGL, whose extensions are all there but enabled by the page alone.
   trace.version = "OpenGL ES 3.0 (WebGL 2.0)";
   trace.limits = {{GL_MAJOR_VERSION, 3}, {GL_MINOR_VERSION, 0}, {GL_NUM_COMPRESSED_TEXTURE_FORMATS, 0}};

@@ -183,7 +183,7 @@ TEST_CASE("nnao: texture arrays are refused where they do not fit, and nothing i
   bad = good, bad.depth_texture = one;
   if (knows_sizes) refused(bad, "frame.depth_texture has another size (got 1 layers, need desc.views, 2)");
   bad = good, bad.target = NOOK_TARGET_FRAMEBUFFER;
-  refused(bad, "frame.target 2 does not go with desc.views 2");
+  refused(bad, "frame.target 2 cannot be combined with desc.views 2");
   bad = good, bad.target = NOOK_TARGET_TEXTURE, bad.target_name = own;
   refused(bad, "use NOOK_TARGET_OWN");
   bad = good, bad.target = NOOK_TARGET_TEXTURE, bad.target_name = depth;

@@ -223,7 +223,7 @@ TEST_CASE("nnao: compute is taken where OpenGL has it, and refused with a reason
       es ? "got OpenGL ES 3.0, need 3.1 or newer)" : "got OpenGL 3.3, need 4.3 or newer)";
   const std::string limited = es ? "got tier 300 on OpenGL ES 3." : "got tier 33 on OpenGL 4.";
   const std::string no_images =
-      std::string("got no \"glBindImageTexture\" from get_proc on OpenGL ") + (es ? "ES 3." : "4.");
+      std::string("get_proc did not return \"glBindImageTexture\" on OpenGL ") + (es ? "ES 3." : "4.");
   const auto fragment = NOOK_NNAO_PATH_FRAGMENT;
   {
     Trace trace(context);

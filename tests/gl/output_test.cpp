@@ -257,7 +257,7 @@ TEST_CASE("a texture's width and format are checked as far as the context tells 
     says("target.texture_width differs from the width of texture");
   } else {
     CHECK(write() == NOOK_ERROR_INVALID_ARGUMENT);
-    says("target.texture_width is 0 (OpenGL ES 3.0 does not tell it");
+    says("target.texture_width is 0 (OpenGL ES 3.0 cannot report it");
   }
   target.texture_width = 64;
   CHECK(write() == NOOK_OK);

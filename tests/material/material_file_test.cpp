@@ -312,11 +312,11 @@ TEST_CASE("a material with a fault is not written, and the message names it") {
   CHECK(refusal([](Material& m) { m.btf.shape.mixture = 4; }).says("mixture clusters of the BTF"));
   CHECK(refusal([](Material& m) { m.btf.shape.width = 1025; }).says("width"));
   CHECK(refusal([](Material& m) { m.btf.cores.pop_back(); }).says("cores of the BTF"));
-  CHECK(refusal([](Material& m) { m.btf.cores[5] = INFINITY; }).says("number 5 of the cores of the BTF"));
+  CHECK(refusal([](Material& m) { m.btf.cores[5] = INFINITY; }).says("element 5 of the cores of the BTF"));
   CHECK(refusal([](Material& m) { m.votf.y_bases.push_back(0); }, {.rank_y = 3}).says("y bases of the VOTF"));
   CHECK(refusal([](Material& m) { m.btf.rows.membership[3] = 3; }).says("memberships 3 of the BTF"));
   CHECK(refusal([](Material& m) { m.btf.rows.membership[3] = m.btf.rows.membership[2]; }).says("row 1"));
-  CHECK(refusal([](Material& m) { m.btf.rows.coefficients[9] = NAN; }).says("number 9 of the coefficients"));
+  CHECK(refusal([](Material& m) { m.btf.rows.coefficients[9] = NAN; }).says("element 9 of the coefficients"));
   CHECK(refusal([](Material& m) { m.btf.map.side = 6; }, {.map_side = 5}).says("map memberships of the BTF"));
   CHECK(refusal([](Material& m) { m.light_basis.pop_back(); }).says("basis of the light mode"));
   CHECK(refusal([](Material& m) { m.visibility = VisibilityForm::none; }).says("cores of the VOTF"));
@@ -330,7 +330,7 @@ TEST_CASE("a material with a fault is not written, and the message names it") {
   CHECK(refusal([](Material& m) { m.relief.steps = 0; }, bumpy).says("levels of the relief"));
   CHECK(refusal([](Material& m) { m.relief.levels.pop_back(); }, bumpy).says("levels of the relief"));
   CHECK(refusal([](Material& m) { m.relief.low = 0; }, {.relief_height = 0.1f})
-            .says("no steps, but has heights"));
+            .says("0 steps, but its heights"));
   CHECK(refusal([](Material& m) {
           m.btf.shape = {9, 1024, 1024, 15, 9, 1, 1, 9, 1};
         }).says("expanded size of the BTF"));

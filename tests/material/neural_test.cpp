@@ -224,8 +224,8 @@ TEST_CASE("a neural material with a fault is not written, and the message names 
   CHECK(refused([](Material& m) { m.neural.weights[7] = 0x7c00; },
                 "weight 7 of the neural material is not finite"));
   CHECK(refused([](Material& m) { m.neural.weights[8] = 0xfe01; }, "weight 8"));
-  CHECK(refused([](Material& m) { m.neural.blocks[8] = 0x80; }, "ends of block 1"));
-  CHECK(refused([](Material& m) { m.neural.blocks[17] = 0x80; }, "ends of block 2"));
+  CHECK(refused([](Material& m) { m.neural.blocks[8] = 0x80; }, "end values of block 1"));
+  CHECK(refused([](Material& m) { m.neural.blocks[17] = 0x80; }, "end values of block 2"));
   CHECK(refused([](Material& m) { m.btf.cores.push_back(0); }, "cores of the neural material"));
   CHECK(refused([](Material& m) { m.light_basis.push_back(0); }, "light basis of the neural material"));
   CHECK(refused([](Material& m) { m.relief.high = 0.1f; }, "has a relief"));

@@ -200,9 +200,9 @@ TEST_CASE("a frame that no pass draws is not recorded, and the text names the nu
   const Case cases[] = {
       {"width and height", [](Recording& r) { r.width = 0; }},
       {"width and height", [](Recording& r) { r.height = 16385; }},
-      {"depth has another size", [](Recording& r) { r.depth.pop_back(); }},
-      {"normals has another size", [](Recording& r) { r.normals.push_back(0); }},
-      {"layer_texels has another size", [](Recording& r) { r.layer.clear(); }},
+      {"depth has the wrong size", [](Recording& r) { r.depth.pop_back(); }},
+      {"normals has the wrong size", [](Recording& r) { r.normals.push_back(0); }},
+      {"layer_texels has the wrong size", [](Recording& r) { r.layer.clear(); }},
       {"ao is out of range", [](Recording& r) { r.ao[3] = nan_number; }},
       {"ao is out of range", [](Recording& r) { r.ao[3] = 1.01f; }},
       {"radius", [](Recording& r) { r.frame.radius = 0; }},

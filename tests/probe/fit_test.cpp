@@ -313,7 +313,7 @@ TEST_CASE("functions that depend on each other together are refused") {
     Fit fit(basis, {});
     FAIL("accepted");
   } catch (const Failure& failure) {
-    CHECK(std::string(failure.what()).find("mixture of the") != std::string::npos);
+    CHECK(std::string(failure.what()).find("linear combination of the") != std::string::npos);
   }
 }
 

@@ -126,10 +126,10 @@ TEST_CASE("amplitudes for gloss that no bake makes are neither written nor read"
   probes.gloss[1].y = 7e4f;
   refused(probes, "too large for this packing (got 70000");
   probes.gloss.pop_back();
-  refused(probes, "number of amplitudes for gloss is wrong (got 5, need 6");
+  refused(probes, "number of gloss amplitudes is wrong (got 5, need 6");
   Probes harmonics = test::sample_probes(harmonic_basis(2));
   harmonics.gloss.resize(harmonics.coefficients.size());
-  refused(harmonics, "number of amplitudes for gloss is wrong");
+  refused(harmonics, "number of gloss amplitudes is wrong");
   // A minus sign in the file is found behind its checksum.
   const Probes good = test::sample_gloss();
   std::vector<std::byte> file = write_probes(good, Packing::float32);

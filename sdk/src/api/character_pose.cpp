@@ -37,12 +37,13 @@ PoseSource nook::api::source_of(const CharacterModel& model, const nook_pose_des
   const nook_pose_desc desc = read_descriptor(given);
   constexpr std::uint32_t known = NOOK_POSE_FLAG_PARTIAL | NOOK_POSE_FLAG_STRICT | NOOK_POSE_FLAG_SURPLUS;
   if (desc.flags & ~known)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.flags has unknown bits (got 0x%x, need a sum of 0x%x)",
-                  desc.flags, known);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.flags has unknown bits (got 0x%x, the known bits are 0x%x)", desc.flags, known);
   if (desc.bone_count > 0) need(desc.transform_of_bone, "desc.transform_of_bone");
   if (desc.transform_of_bone && desc.bone_count != model.bone_count())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.bone_count is not the model's (got %u, need %zu)",
-                  desc.bone_count, model.bone_count());
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.bone_count differs from the model's bone count (got %u, need %zu)", desc.bone_count,
+                  model.bone_count());
   PoseSource source;
   source.kind = desc.kind;
   source.layout = desc.layout;
@@ -238,8 +239,8 @@ nook_result nook_model_map_bones(nook_model model, const nook_bone_map_desc* des
     check_bone_count(bone_count, model->model.bone_count());
     constexpr std::uint32_t known = NOOK_BONE_MAP_LOOSE | NOOK_BONE_MAP_DROP_SHARED_PREFIX;
     if (rules.flags & ~known)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.flags has unknown bits (got 0x%x, need a sum of 0x%x)",
-                    rules.flags, known);
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.flags has unknown bits (got 0x%x, the known bits are 0x%x)", rules.flags, known);
     if (rules.name_count) need(rules.names, "desc.names");
     const std::size_t missing =
         map_bones(model->model, rules, {transform_of_bone, bone_count}, model->context->memory());

@@ -53,11 +53,10 @@ void check_host_weights(const HostWeights& host, std::uint32_t count, std::size_
       // Engines leave arbitrary joint indices where the weight is 0, so these are not checked. The first
       // joint is checked, because a vertex without weights follows it.
       if ((weight > 0 || k == 0) && host.joint_at(i, k) >= joints)
-        throw Failure(
-            NOOK_ERROR_INVALID_ARGUMENT,
-            "desc.joints[%u] of vertex %u is out of range (got %u, need less than %zu, the joints of "
-            "desc.skin); match the meshes of each skin in a call of their own",
-            k, i, host.joint_at(i, k), joints);
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "desc.joints[%u] of vertex %u is out of range (got %u, need less than %zu, the number "
+                      "of joints of desc.skin); match the meshes of each skin in a separate call",
+                      k, i, host.joint_at(i, k), joints);
     }
 }
 
@@ -106,10 +105,10 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_
 
 // Returns advice for the caller: the additional data that could distinguish vertices at the same place.
 const char* missing_evidence(const nook_vertex_match_desc& match, bool has_triangles) {
-  if (!match.normals) return "give desc.normals too";
-  if (!match.joints) return "give desc.joints and desc.weights too";
-  if (match.primitive < 0) return "match each primitive in a call of its own";
-  if (!has_triangles) return "give the triangles too, to nook_model_match_mesh";
+  if (!match.normals) return "also set desc.normals";
+  if (!match.joints) return "also set desc.joints and desc.weights";
+  if (match.primitive < 0) return "match each primitive in a separate call";
+  if (!has_triangles) return "call nook_model_match_mesh, which also uses the triangles";
   return "keep the order of the file's vertices, or move the vertices apart and bake again";
 }
 
@@ -120,13 +119,13 @@ void describe_matches(const VertexMatches& matches, const nook_vertex_match_desc
   int used = 0;
   if (matches.unmatched > 0)
     used = std::snprintf(info.text, sizeof info.text,
-                         "%u of %u vertices are near no vertex of the model, the first is vertex %u; check "
-                         "the mesh and its unit",
+                         "%u of %u vertices are not near any vertex of the model; the first is vertex %u; "
+                         "check the mesh and its unit",
                          matches.unmatched, match.vertex_count, matches.first_unmatched);
   if (matches.ambiguous > 0)
     std::snprintf(info.text + used, sizeof info.text - static_cast<std::size_t>(used),
-                  "%s%u of %u vertices fit several vertices of the model with other AO, the first is vertex "
-                  "%u, which can be %u or %u; %s",
+                  "%s%u of %u vertices match several model vertices with different AO; the first is vertex "
+                  "%u, which matches %u and %u; %s",
                   used > 0 ? ". " : "", matches.ambiguous, match.vertex_count, matches.first_ambiguous,
                   matches.taken, matches.other, missing_evidence(match, has_triangles));
 }

@@ -227,7 +227,7 @@ nook_result nook_clips_read_capsules(nook_clips clips, const nook_clip_time* tim
     *count = static_cast<std::uint32_t>(casters.size());
     if (!out) return;
     if (room < casters.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "there is too little room (got %u, need %zu)", room,
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "*count is too small (got %u, need %zu)", room,
                     casters.size());
     const FrameMix mix = mix_of(clips->set, time);
     const Mat3x4 place = place_of(place_3x4);
@@ -270,7 +270,7 @@ nook_result nook_clips_read_table(nook_clips clips, nook_clips_table table, void
     const ClipTexels known = texels_of(*clips, table);
     const std::size_t bytes = static_cast<std::size_t>(known.bytes());
     if (texels && *size < bytes)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "there is too little room (got %zu bytes, need %zu)", *size,
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "*size is too small (got %zu bytes, need %zu)", *size,
                     bytes);
     *size = bytes;
     *width = ClipTexels::width;

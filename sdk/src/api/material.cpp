@@ -75,8 +75,8 @@ ModeForm checked(const nook_material_desc* given) {
 void need_finite(std::initializer_list<float> numbers, const char* what, std::uint32_t index) {
   for (const float number : numbers)
     if (!std::isfinite(number))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a number of %s %u is not finite (got %g)", what, index,
-                    double(number));
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s %u contains a value that is not finite (got %g)", what,
+                    index, double(number));
 }
 
 Pixel checked(const nook_material_pixel& given, std::uint32_t index, std::uint32_t fetches) {
@@ -118,8 +118,8 @@ nook_result nook_material_load(nook_context context, const void* bytes, size_t s
     *out = Owned<nook_material_s>::make(context->memory(), shared, context, material, form).detach();
     const nook_material_info& info = (*out)->info;
     context->log(NOOK_LOG_INFO,
-                 "material: %u x %u texels, %u clusters, %u of them mixed, %u neural channels, %zu bytes, "
-                 "%llu expanded",
+                 "material: %u x %u texels, %u clusters, %u of them mixed in each view, %u neural channels, "
+                 "%zu bytes, %llu bytes expanded",
                  info.width, info.height, info.btf.clusters, info.btf.mixture, info.neural_channels, size,
                  static_cast<unsigned long long>(info.table_bytes));
   });

@@ -30,10 +30,10 @@ void copy_text(String& text, const char* given, const char* field) {
 
 void copy_network(Vector<std::byte>& network, const nook_nnao_recording_desc& desc) {
   if (!desc.network && desc.network_size != 0)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "desc.network is NULL with desc.network_size %zu; give the bytes, or 0 for the embedded network",
-        desc.network_size);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.network is NULL, but desc.network_size is %zu; pass the bytes of the network, or set "
+                  "the size to 0 for the embedded network",
+                  desc.network_size);
   std::span<const std::byte> bytes = nnao::default_network_file();
   if (desc.network) {
     bytes = {static_cast<const std::byte*>(desc.network), desc.network_size};

@@ -11,13 +11,14 @@ void log_uneven(const Context& context, const char* subject, const CharacterMode
                 const PoseNotes& notes) {
   context.log(
       NOOK_LOG_WARNING,
-      "%s: %u of %u bones are sheared or scale unevenly and are projected to the nearest rotation with "
-      "one scale; the first is bone %u (\"%s\"), whose axes have lengths %g %g %g and a largest cosine "
-      "of %g; %s",
+      "%s: %u of %u bones are sheared or scale unevenly and are projected to the nearest rotation with one "
+      "scale; the first is bone %u (\"%s\"). Its axes have the lengths %g %g %g, and the largest cosine "
+      "between two axes is %g; %s",
       subject, notes.uneven, notes.bones, notes.first, model.bone_names[notes.first].c_str(),
       notes.axes.length(0), notes.axes.length(1), notes.axes.length(2), notes.axes.cosine(),
-      notes.is_place_uneven ? "place_3x4 itself is uneven, scale it equally in x, y and z"
-                            : "check the layout if this is not meant, transposed matrices look like this");
+      notes.is_place_uneven
+          ? "place_3x4 itself is sheared or scales unevenly; scale it equally in x, y and z"
+          : "if you did not intend this, check desc.layout, because transposed matrices look like this");
 }
 
 void log_topics(const Context& context, const char* subject, const CharacterModel& model,

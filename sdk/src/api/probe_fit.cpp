@@ -26,11 +26,10 @@ void check_choices(const nook_probe_fit_desc& desc) {
   if (desc.reserved != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
   if (desc.form == NOOK_FORM_PAPER && (desc.method != NOOK_PROBE_FIT_LEAST_SQUARES || desc.match_sh != 1))
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "desc.form NOOK_FORM_PAPER sets the method itself (got method %d and match_sh %d, need 0 and "
-        "1); leave both at their defaults",
-        desc.method, desc.match_sh);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.form NOOK_FORM_PAPER sets desc.method and desc.match_sh itself (got %d and %d, need "
+                  "0 and 1); leave both at their defaults",
+                  desc.method, desc.match_sh);
 }
 
 void check_study(const nook_probe_fit_desc& desc, const nook_probe_fit_study_desc& study) {
@@ -45,11 +44,10 @@ void check_study(const nook_probe_fit_desc& desc, const nook_probe_fit_study_des
   choice("dice", study.dice, 1);
   if (study.method != NOOK_PROBE_FIT_STUDY_DEFAULT &&
       (desc.form != NOOK_FORM_DEFAULT || desc.method != NOOK_PROBE_FIT_LEAST_SQUARES))
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "method of nook_probe_fit_study_desc replaces the method (got desc.form %d and desc.method %d, "
-        "need 0 and 0); leave both at their defaults",
-        desc.form, desc.method);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "method of nook_probe_fit_study_desc replaces desc.form and desc.method (got desc.form %d "
+                  "and desc.method %d, need 0 and 0); leave both at their defaults",
+                  desc.form, desc.method);
 }
 
 Basis lobes_of(const nook_probe_fit_desc& desc, Domain domain, Vec3 up) {

@@ -74,7 +74,7 @@ Surface surface_of(const nook_probe_surface& s, std::size_t index) {
   for (const float alpha : {s.alpha_x, s.alpha_y})
     if (!(alpha >= 0.001f && alpha <= 1))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "a width alpha of surface %zu is out of range (got %g, need 0.001 to 1)", index,
+                    "alpha_x or alpha_y of surface %zu is out of range (got %g, need 0.001 to 1)", index,
                     double(alpha));
   if (!(s.reflectance >= 0 && s.reflectance <= 1))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

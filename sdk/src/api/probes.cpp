@@ -39,9 +39,10 @@ void read_fits(const nook_probe_desc& desc, Probes& probes) {
   for (std::size_t i = 0; i < desc.fit_count; ++i) {
     if (!desc.fits[i]) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.fits[%zu] is NULL", i);
     if (!(desc.fits[i]->fit.basis() == desc.fits[0]->fit.basis()))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.fits[%zu] has other functions than desc.fits[0]; create all from equal descriptors",
-                    i);
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "desc.fits[%zu] has different functions from desc.fits[0]; create all fits with equal descriptors",
+          i);
   }
   probes.basis = desc.fits[0]->fit.basis();
   probes.coefficients.resize(probes.grid.size() * probes.basis.count);
@@ -142,7 +143,8 @@ void write_lobes(const Basis& basis, std::span<const Vec3> coefficients, nook_lo
 
 void check_count(const Probes& probes, std::uint32_t function_count) {
   if (function_count != probes.basis.count)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "function_count is not the probe's (got %u, need %u)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "function_count differs from the probe's number of functions (got %u, need %u)",
                   function_count, probes.basis.count);
 }
 
@@ -204,13 +206,12 @@ nook_result nook_probe_load(nook_context context, const void* bytes, size_t size
                read_probes({static_cast<const std::byte*>(bytes), size}, context->memory()))
                .detach();
     const Probes& loaded = (*out)->probes;
-    context->log(NOOK_LOG_INFO, "light probes: %zu of %u functions, %zu bytes", loaded.grid.size(),
-                 loaded.basis.count, size);
+    context->log(NOOK_LOG_INFO, "light probes: %zu probes with %u functions each, %zu bytes",
+                 loaded.grid.size(), loaded.basis.count, size);
     if (lacks_gloss(loaded))
-      context->log(
-          NOOK_LOG_WARNING,
-          "light probes: the file has no amplitudes for gloss, and the light's are partly negative, so "
-          "that glossy reflections may have black patches; bake it again");
+      context->log(NOOK_LOG_WARNING,
+                   "light probes: the file has no gloss amplitudes, and some amplitudes of the light are "
+                   "negative, so glossy reflections may have black patches; bake the file again");
   });
 }
 
@@ -295,8 +296,8 @@ nook_result nook_probe_read_gloss(nook_probe probe, const float* position_ws, no
     check_count(probes, function_count);
     if (!probes.has_gloss())
       throw Failure(NOOK_ERROR_UNSUPPORTED,
-                    "the probe has no amplitudes for gloss, as it does not come from a fit or from a file "
-                    "that has them; bake it again, or take the lobes of nook_probe_read_lobes");
+                    "the probe has no gloss amplitudes, because it was not created from fits or from a file "
+                    "that contains them; bake it again, or use the lobes of nook_probe_read_lobes");
     Coefficients storage;
     const std::span<Vec3> amplitudes = std::span(storage).first(probes.basis.count);
     if (position_ws)

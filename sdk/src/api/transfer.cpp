@@ -36,9 +36,10 @@ VectorOutput output_of(float* vectors, std::uint32_t count, std::uint32_t stride
   need(vectors, "vectors");
   const std::uint32_t floats = 3 * response.light_modes;
   if (stride != 0 && stride < floats)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "stride_floats is too small (got %u, need 0 or at least %u, the floats of a vector)",
-                  stride, floats);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "stride_floats is too small (got %u, need 0 or at least %u, the number of floats in a vector)",
+        stride, floats);
   check_array("stride_floats", stride, sizeof(float));
   checked_stride("stride_floats", stride * sizeof(float), count, floats * sizeof(float));
   return {vectors, stride == 0 ? floats : stride};
@@ -55,7 +56,7 @@ Vec3 unit(const char* name, const float* v, std::uint32_t index) {
 void need_finite(const float* values, std::size_t count, const char* what) {
   for (std::size_t i = 0; i < count; ++i)
     if (!std::isfinite(values[i]))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "number %zu of %s is not finite (got %g)", i, what,
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "element %zu of %s is not finite (got %g)", i, what,
                     double(values[i]));
 }
 
@@ -72,13 +73,15 @@ void write_baked(const nook_transfer_response_s& response, const nook_transfer_v
                  float* vectors, std::uint32_t vertex_count, std::uint32_t stride) {
   const Transfer& baked = desc.transfer->transfer;
   if (desc.normals || desc.tangents)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc has a transfer, whose frames are baked, and normals or tangents; set those to NULL");
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.transfer already contains the tangent frames; set desc.normals and desc.tangents to NULL");
   check_same_lobes(baked, desc.lobe_count);
   if (desc.first_vertex > baked.vertex_count() || vertex_count > baked.vertex_count() - desc.first_vertex)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "vertices are out of range (got %u from %u on, the transfer has %u)", vertex_count,
-                  desc.first_vertex, baked.vertex_count());
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the vertices are out of range (got %u vertices from vertex %u, but the transfer has %u vertices)",
+        vertex_count, desc.first_vertex, baked.vertex_count());
   check_same_light(baked, response.response.light_modes, response.response.light_hash);
   const VectorOutput output = output_of(vectors, vertex_count, stride, response.response);
   baked_vectors(response.response, response.isa, {desc.amplitudes, std::size_t(3) * desc.lobe_count}, baked,
@@ -90,7 +93,7 @@ void write_open(const nook_transfer_response_s& response, const nook_transfer_ve
                 float* vectors, std::uint32_t vertex_count, std::uint32_t stride) {
   const VectorOutput output = output_of(vectors, vertex_count, stride, response.response);
   if (desc.first_vertex != 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.first_vertex is %u without a transfer, need 0",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.first_vertex is %u, need 0 if desc.transfer is NULL",
                   desc.first_vertex);
   need(desc.normals, "desc.normals");
   need(desc.tangents, "desc.tangents");
@@ -159,10 +162,12 @@ nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, fl
     const Transfer& baked = transfer->transfer;
     if (baked.paper.is_used())
       throw Failure(NOOK_ERROR_UNSUPPORTED,
-                    "the paper's form of transfer has no frames; keep the frames of the mesh");
+                    "a transfer of the paper's form contains no tangent frames; use the normals and tangents "
+                    "of your mesh");
     if (vertex_count != baked.vertex_count())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "vertex_count is not the transfer's (got %u, need %u)",
-                    vertex_count, baked.vertex_count());
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "vertex_count differs from the transfer's vertex count (got %u, need %u)", vertex_count,
+                    baked.vertex_count());
     for (std::size_t v = 0; v < vertex_count; ++v) {
       const Frame frame = unpack(baked.frames[v]);
       const float numbers[7] = {frame.normal.x,  frame.normal.y,  frame.normal.z,  frame.tangent.x,
@@ -252,7 +257,8 @@ nook_result nook_transfer_shade(nook_material material, const nook_material_pixe
     const std::uint32_t modes = material->tables.btf.light_modes;
     if (vector_floats != 3 * modes)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "vector_floats differs from the material's (got %u, need %u)", vector_floats, 3 * modes);
+                    "vector_floats differs from the number that the material needs (got %u, need %u)",
+                    vector_floats, 3 * modes);
     if (count == 0) return;
     need(pixels, "pixels");
     need(vectors, "vectors");

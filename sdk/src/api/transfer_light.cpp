@@ -43,9 +43,10 @@ Mat3x4 rotation_of(const float* rows) {
       float product = 0;
       for (int c = 0; c < 3; ++c) product += rows[3 * r + c] * rows[3 * s + c];
       if (!(std::abs(product - float(r == s)) <= 1e-3f))
-        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "light_from_shape is not a rotation: the product of its rows %d and %d is %g (need %d)",
-                      r, s, double(product), int(r == s));
+        throw Failure(
+            NOOK_ERROR_INVALID_ARGUMENT,
+            "light_from_shape is not a rotation: the dot product of its rows %d and %d is %g (need %d)", r, s,
+            double(product), int(r == s));
     }
   return matrix;
 }
@@ -113,7 +114,7 @@ void check_info(const nook_transfer_light_s& light, const nook_transfer_projecti
                   info->struct_size, sizeof(nook_transfer_projection_info));
   if (light.is_directional())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "info is not NULL, but the light of a direction has no quality; pass NULL");
+                  "info is not NULL, but a light with desc.direction has no projection quality; pass NULL");
 }
 
 }  // namespace
@@ -151,7 +152,7 @@ nook_result nook_transfer_light_read_suns(nook_transfer_light light, nook_transf
     if (!suns) return;
     if (room < found)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "suns has too little room (got %u, need %u); pass NULL to ask for the number", room,
+                    "*count is too small (got %u, need %u); call with suns NULL to get the number", room,
                     found);
     for (std::size_t i = 0; i < found; ++i) {
       const MapSun& sun = light->suns[i];

@@ -25,7 +25,7 @@ world::SampleRequest request_of(const nook_world_sample_desc& desc, float cutoff
   }
   check_fits("desc.stride", desc.stride,
              desc.stride % sizeof(float) == 0 && (desc.stride == 0 || desc.stride >= 3 * sizeof(float)),
-             "0 or a multiple of 4 from 12 on");
+             "0, or a multiple of 4 that is at least 12");
   checked_stride("desc.stride", desc.stride, desc.point_count, 3 * sizeof(float));
   api::check_props("desc", desc.capsules, desc.capsule_count);
   world::SampleRequest request;
@@ -70,7 +70,7 @@ nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* de
     const nook_world_sample_desc given = read_descriptor(desc);
     if (light && given.light_degrees == 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "light is not NULL, but desc.light_degrees is 0; give the light's full angle");
+                    "light is not NULL, but desc.light_degrees is 0; set it to the full angle of the light");
     world::SampleRequest request = request_of(given, scene ? scene->scene.settings.cutoff_error : 0);
     world::LightTerms terms;
     if (given.directional_ao) {
@@ -78,7 +78,9 @@ nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* de
       request.terms = &terms;
     }
     if (given.receiver) {
-      if (!scene) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.receiver is given without a scene");
+      if (!scene)
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "desc.receiver is set, but scene is NULL; pass the scene of the receiver");
       instance_of(scene->scene, given.receiver);
     }
     if (scene) need_cpu_poses(scene->scene);

@@ -31,7 +31,7 @@ std::uint32_t size_of(const Objects& objects) {
 
 void check_props(const char* descriptor, const nook_capsule* props, std::uint32_t count) {
   if (count > 0 && !props)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.capsules is NULL with %s.capsule_count %u", descriptor,
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.capsules is NULL, but %s.capsule_count is %u", descriptor,
                   descriptor, count);
   constexpr std::uint32_t largest = 1u << 20;
   if (count > largest)
@@ -67,7 +67,7 @@ Vec3 checked_light(const char* descriptor, const float (&axis)[3], float degrees
 world::LightTerms terms_of_lobes(const char* descriptor, const nook_lobe* lobes, std::uint32_t count,
                                  const float* turn) {
   if (count > 0 && !lobes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.lobes is NULL with %s.lobe_count %u", descriptor,
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.lobes is NULL, but %s.lobe_count is %u", descriptor,
                   descriptor, count);
   if (count > max_light_lobes)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s.lobe_count is too large (got %u, need at most %u)",

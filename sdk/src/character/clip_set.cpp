@@ -54,14 +54,15 @@ void check_clips(const ClipSet& set, nook_result code) {
                     c, double(clip.duration_s), double(max_duration_s));
     if (clip.first_frame != frames || clip.frame_count < 1 || clip.frame_count > set.frame_count - frames)
       throw Failure(code,
-                    "the frames of clip %zu are out of range (got %u from %u on, need 1 or more from %u on, "
-                    "of %u); bake the clips again",
+                    "the frames of clip %zu are out of range (got %u frames from frame %u, need at least 1 "
+                    "from frame %u, of %u in all); bake the clips again",
                     c, clip.frame_count, clip.first_frame, frames, set.frame_count);
     frames += clip.frame_count;
   }
   if (frames != set.frame_count)
-    throw Failure(code, "the clips have another number of frames than the set (got %u, need %u)", frames,
-                  set.frame_count);
+    throw Failure(
+        code, "the frame counts of the clips do not add up to the total number of frames (got %u, need %u)",
+        frames, set.frame_count);
 }
 
 }  // namespace
@@ -89,8 +90,9 @@ void check_clip_set(const ClipSet& set, nook_result code) {
   for (std::size_t b = 0; b < set.bones.size(); ++b) {
     const BoneSpan& bone = set.bones[b];
     if (!is_place(bone.centre) || !(bone.radius >= 1e-6f) || !(bone.radius <= max_metres))
-      throw Failure(code, "the place of bone %zu is out of range (got %g %g %g with the radius %g)", b,
-                    double(bone.centre.x), double(bone.centre.y), double(bone.centre.z), double(bone.radius));
+      throw Failure(
+          code, "the position or the radius of bone %zu is out of range (got %g %g %g with the radius %g)", b,
+          double(bone.centre.x), double(bone.centre.y), double(bone.centre.z), double(bone.radius));
   }
 }
 

@@ -29,8 +29,8 @@ void leave_gpu_pose(Scene& scene, Instance& instance) noexcept {
 void need_cpu_pose(const Instance& instance) {
   if (instance.input.is_posed_on_gpu)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the pose of instance %u is on the GPU, and this call needs it on the CPU; set all bones "
-                  "with nook_scene_set_pose, or a clip, before",
+                  "the pose of instance %u is on the GPU, and this call needs it on the CPU; first set all "
+                  "bones with nook_scene_set_pose, or set a clip",
                   instance.id);
 }
 

@@ -34,8 +34,10 @@ void read_bone_names(ByteReader in, CharacterModel& model) {
     const std::uint32_t rest = in.varint();
     const std::size_t before = i == 0 ? 0 : model.bone_names.back().size();
     if (shared > before || shared > max_shared_name)
-      throw Failure(NOOK_ERROR_BAD_FILE,
-                    "the name of bone %u repeats too much (got %u bytes); bake the file again", i, shared);
+      throw Failure(
+          NOOK_ERROR_BAD_FILE,
+          "the name of bone %u shares too many bytes with the name before it (got %u); bake the file again",
+          i, shared);
     const std::string_view tail = in.text(rest);
     String& name = model.bone_names.emplace_back();
     name.reserve(shared + rest);
@@ -143,8 +145,9 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
         if (!in.bits(1)) continue;
         if (e == count)
           throw Failure(NOOK_ERROR_BAD_FILE,
-                        "vertex %u takes over more key points than it has (%u); bake the file again", i,
-                        count);
+                        "vertex %u copies more key points from other vertices than it has itself (%u); bake "
+                        "the file again",
+                        i, count);
         model.influence[first + e++] = other[o];
       }
     }
@@ -306,7 +309,7 @@ float read_changed_bits(ByteReader& in, float before) {
   const int count = static_cast<int>(in.bits(Bits::float_bits));
   if (count > 32)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "section %s holds a float of %d changed bits (need at most 32); bake the file again",
+                  "section %s stores a float with %d changed bits (need at most 32); bake the file again",
                   in.name(), count);
   return bit_cast<float>(bit_cast<std::uint32_t>(before) ^ in.bits(count));
 }

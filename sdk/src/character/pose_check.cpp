@@ -211,7 +211,7 @@ bool explain_by_order(const Check& check, PoseFinding& finding) {
       found.size(), off, bone, check.model.bone_names[bone].c_str(),
       static_cast<long long>(found[0].transform));
   if (found.size() < off || transforms < bones)
-    explain(finding, NOOK_POSE_FAULT_UNKNOWN, "the pose is of another frame than the vertices");
+    explain(finding, NOOK_POSE_FAULT_UNKNOWN, "the pose and the vertices are from different frames");
   return true;
 }
 
@@ -232,8 +232,8 @@ void set_tolerance(Check& check, double tolerance) {
   const RestVertex& rest = check.model.bind.vertices[check.all[0].rest_vertex];
   const std::size_t bone = rest.bone[std::min(first_missing(check, rest), rest.bone_count - 1)];
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "every vertex follows at least one bone that this pose does not move (bone %zu, \"%s\", has "
-                "no transform); check which skin moves the vertices",
+                "every vertex follows at least one bone that has no transform in this pose (for example bone "
+                "%zu, \"%s\"); check which skin moves the vertices",
                 bone, check.model.bone_names[bone].c_str());
 }
 
@@ -277,7 +277,8 @@ void explain_difference(Check& check, const Reading& as_given, PoseFinding& find
   if (finding.fault == NOOK_POSE_FAULT_NONE)
     explain(finding, NOOK_POSE_FAULT_UNKNOWN,
             "the pose differs by up to %.3g of the bounding radius, most at bone %u (\"%s\"), and no known "
-            "mistake explains it: another clip or frame, another mesh, or vertices of another file",
+            "mistake explains the difference; check that the pose and the vertices are from the same clip, "
+            "frame, mesh and file",
             finding.max_error, finding.worst_bone, check.model.bone_names[finding.worst_bone].c_str());
 }
 
@@ -306,7 +307,7 @@ PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& sourc
   finding.worst_bone = is_readable ? check.vertex[distances.worst]->bone[0] : first.bone[0];
   if (distances.max <= check.tolerance_ws)
     explain(finding, NOOK_POSE_FAULT_NONE,
-            "the pose is right: %zu vertices agree to %.2g of the bounding radius", check.vertex.size(),
+            "the pose is right: %zu vertices agree within %.2g of the bounding radius", check.vertex.size(),
             finding.max_error);
   else
     explain_difference(check, as_given, finding, memory);

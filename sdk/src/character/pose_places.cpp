@@ -113,26 +113,27 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
   if (is_given &&
       (fits_under(points, from_columns_4x3(given)) ||
        (!is_same_turn(given, turned_back(given)) && is_same_turn(turned_back(given), true_place)))) {
-    explain(
-        finding, fault,
-        "desc.place_3x4 is transposed: give three rows of four, each with its part of the translation last");
+    explain(finding, fault,
+            "desc.place_3x4 is transposed: pass three rows of four numbers, with the translation in the last "
+            "column");
     return true;
   }
   const bool is_of_vertices = !is_same(points.vertex_place, none, tolerance_m);
   if (is_of_vertices && fits_under(points, points.vertex_place)) {
     if (is_given)
       explain(finding, fault,
-              "desc.place_3x4 is not the place of the vertices: the pose stands at another place, and fits "
+              "desc.place_3x4 is another place than the place of the vertices; the pose matches the vertices "
               "with check.place_3x4");
     else
-      explain(finding, fault, "desc.place_3x4 is missing: the pose fits with check.place_3x4");
+      explain(finding, fault,
+              "desc.place_3x4 is missing; the pose matches the vertices with check.place_3x4");
     return true;
   }
   if (is_given && fits_under(points, none)) {
-    explain(
-        finding, fault,
-        "the pose stands at another place than the vertices, and fits without desc.place_3x4: the transforms "
-        "lead to the world already, or check.place_3x4, the place of the vertices, is missing");
+    explain(finding, fault,
+            "the pose stands at another place than the vertices, and matches them without desc.place_3x4: "
+            "either the transforms already lead to world space, or check.place_3x4 (the place of the "
+            "vertices) is missing");
     return true;
   }
   return false;

@@ -146,14 +146,15 @@ void describe_transposed(const PoseSource& given, const Reading& reading, PoseFi
   const PoseSource& source = reading.source;
   if (source.kind != given.kind)
     explain(finding, NOOK_POSE_FAULT_TRANSPOSED,
-            "the transforms are transposed, and they are %s; give desc.layout and desc.kind",
+            "the transforms are transposed, and they are %s; set desc.layout and desc.kind",
             kind_name(source.kind));
   else if (reading.is_turned_back)
     explain(finding, NOOK_POSE_FAULT_TRANSPOSED,
             "the rotations are transposed, while the translations are right");
   else
-    explain(finding, NOOK_POSE_FAULT_TRANSPOSED,
-            "the transforms are transposed: rows were given as columns or columns as rows; give desc.layout");
+    explain(
+        finding, NOOK_POSE_FAULT_TRANSPOSED,
+        "the transforms are transposed: rows were passed as columns, or columns as rows; set desc.layout");
 }
 
 }  // namespace
@@ -168,8 +169,8 @@ void describe(const CharacterModel& model, const PoseSource& given, const Readin
       break;
     case NOOK_POSE_FAULT_NO_BIND:
       if (explain(finding, reading.fault,
-                  "skinning matrices were given as rest-to-world matrices, so that S^-1 is missing; give "
-                  "NOOK_POSE_SKINNING with skin %u",
+                  "skinning matrices were passed as rest-to-world matrices, so S^-1 is missing; set "
+                  "desc.kind to NOOK_POSE_SKINNING and desc.skin to %u",
                   skin))
         finding.fitting_skin = skin;
       break;
@@ -179,7 +180,7 @@ void describe(const CharacterModel& model, const PoseSource& given, const Readin
         finding.fitting_skin = skin;
       break;
     case NOOK_POSE_FAULT_KIND:
-      explain(finding, reading.fault, "the transforms are %s, not %s; give desc.kind", kind_name(source.kind),
+      explain(finding, reading.fault, "the transforms are %s, not %s; set desc.kind", kind_name(source.kind),
               kind_name(given.kind));
       break;
     case NOOK_POSE_FAULT_INVERTED:

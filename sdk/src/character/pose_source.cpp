@@ -27,7 +27,7 @@ std::uint32_t find_skin(const CharacterModel& model, std::uint32_t file_index) {
   if (found == skins.end())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.skin is not one of the model's %zu skins (got %u); nook_model_describe_skin lists "
-                  "them, and a model without skins takes NOOK_POSE_JOINT_TO_WORLD",
+                  "them. For a model without skins, use NOOK_POSE_JOINT_TO_WORLD",
                   skins.size(), file_index);
   return static_cast<std::uint32_t>(found - skins.begin());
 }
@@ -70,14 +70,14 @@ void take_surplus_off(PoseSource& source, std::size_t expected) {
   const char* const what = source.kind == NOOK_POSE_SKINNING ? "joints of the skin" : "bones of the model";
   if (got < expected)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.transform_count is less than the number of %s (got %u, need %zu); give "
-                  "desc.transform_of_bone for another order",
+                  "desc.transform_count is less than the number of %s (got %u, need %zu); set "
+                  "desc.transform_of_bone if the transforms have another order",
                   what, got, expected);
   if (!source.allows_surplus)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "desc.transform_count is more than the number of %s (got %u, need %zu); set NOOK_POSE_FLAG_SURPLUS "
-        "to use only the first %zu, or give desc.transform_of_bone for another order",
+        "to use only the first %zu, or set desc.transform_of_bone if the transforms have another order",
         what, got, expected, expected);
   source.transform_count = static_cast<std::uint32_t>(expected);
 }
@@ -106,8 +106,8 @@ std::size_t floats_of_layout(nook_transform_layout layout) {
 
 void check_bone_count(std::size_t got, std::size_t of_model) {
   if (got != of_model)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "bone_count is not the model's (got %zu, need %zu)", got,
-                  of_model);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "bone_count differs from the model's bone count (got %zu, need %zu)", got, of_model);
 }
 
 void check_pose_source(const CharacterModel& model, PoseSource& source, bool needs_bind_data) {
@@ -117,9 +117,10 @@ void check_pose_source(const CharacterModel& model, PoseSource& source, bool nee
   const std::size_t bytes = floats_of_layout(source.layout) * sizeof(float);
   if (source.stride == 0) source.stride = bytes;
   if (source.stride < bytes || source.stride % sizeof(float))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.stride is out of range (got %zu bytes, need 0 or a multiple of 4 from %zu on)",
-                  source.stride, bytes);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.stride is out of range (got %zu bytes, need 0, or a multiple of 4 that is at least %zu)",
+        source.stride, bytes);
   check_range("desc.transform_count", source.transform_count, 1, max_transforms);
   checked_stride("desc.stride", source.stride, source.transform_count, bytes);
   if (needs_bind_data || source.kind != NOOK_POSE_REST_TO_WORLD) need_bind_data(model);
@@ -236,17 +237,16 @@ void fail_uneven(const CharacterModel& model, std::size_t bone, const BoneAxes<d
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                 "the matrix of bone %zu (\"%s\") is not a rotation with one scale (its axes have lengths %g "
                 "%g %g, and the largest cosine between them is %g; need lengths that agree within 1 %% and a "
-                "cosine of at most 0.01); check desc.layout, a transposed matrix looks like this; without "
-                "strict_poses and NOOK_POSE_FLAG_STRICT the matrix is projected",
+                "cosine of at most 0.01); check desc.layout, because a transposed matrix looks like this. "
+                "Without strict_poses and NOOK_POSE_FLAG_STRICT, Nook projects the matrix",
                 bone, name_of(model, bone), axes.length(0), axes.length(1), axes.length(2), axes.cosine());
 }
 
 void fail_without_transform(const CharacterModel& model, std::size_t bone) {
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "bone %zu (\"%s\") has no transform; map it, or give NOOK_POSE_FLAG_PARTIAL and pose the other skins "
-      "and rigid parts with calls of their own",
-      bone, name_of(model, bone));
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "bone %zu (\"%s\") has no transform; map the bone, or set NOOK_POSE_FLAG_PARTIAL and pose "
+                "the other skins and rigid parts in separate calls",
+                bone, name_of(model, bone));
 }
 
 void fail_without_joint(const CharacterModel& model, const SkinBind& skin) {

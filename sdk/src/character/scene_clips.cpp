@@ -86,8 +86,8 @@ void check_clip(Scene& scene, const LoadedClips& clips, const nook_instance_clip
   Instance& instance = instance_of(scene, given.instance);
   if (instance.model.get() != clips.model.get())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "instances[%zu] (instance %u) has another model than the clips were loaded for; call once "
-                  "for each model",
+                  "instances[%zu] (instance %u) does not have the model that the clips were loaded for; make "
+                  "a separate call for each model",
                   index, given.instance);
   if (instance.input.clip.call == scene.clip_calls)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "instances[%zu] (instance %u) occurs twice in a call", index,

@@ -238,8 +238,8 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
   Instance& instance = instance_of(scene, id);
   if (model->model.bone_count() != instance.input.bones.size())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the model has another number of bones than the instance's (got %zu, need %zu); remove the "
-                  "instance and add it with the new model",
+                  "the new model and the instance have different numbers of bones (got %zu, need %zu); "
+                  "remove the instance and add it with the new model",
                   model->model.bone_count(), instance.input.bones.size());
   need_cpu_pose(instance);
   decode_late_bones(instance);
@@ -266,9 +266,10 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
 PoseNotes set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
   Instance& instance = instance_of(scene, id);
   if (bones.size() != instance.input.bones.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "bone_count is not the model's (got %zu, need %zu); see nook_model_describe", bones.size(),
-                  instance.input.bones.size());
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "bone_count differs from the model's bone count (got %zu, need %zu); see nook_model_describe",
+        bones.size(), instance.input.bones.size());
   const PoseNotes notes = set_bones(instance, bones, scene.settings.strict_poses);
   leave_gpu_pose(scene, instance);
   return notes;
@@ -317,8 +318,7 @@ PoseNotes set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> cli
   const CharacterModel& model = instance.model->model;
   if (clips->model.get() != instance.model.get())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the clips were loaded for another model than instance %u has; load them with its model",
-                  id);
+                  "the clips were not loaded for the model of instance %u; load them with this model", id);
   const PoseNotes notes = notes_of_place(model, place);
   if (notes.is_place_uneven && scene.settings.strict_poses) fail_uneven(model, notes.first, notes.axes);
   const std::span<Mat3x4> posed(scene.converted.data(), instance.input.bones.size());
@@ -357,7 +357,8 @@ void unlink(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
   Instance& casting = instance_of(scene, caster);
   if (!erase_slot(instance.input.linked, slot_of(scene, casting)))
     throw Failure(NOOK_ERROR_INVALID_HANDLE,
-                  "instance %u is not linked to caster %u; unlink takes only links of nook_scene_link",
+                  "instance %u is not linked to caster %u; nook_scene_unlink removes only links that "
+                  "nook_scene_link made",
                   receiver, caster);
   erase_slot(casting.input.receivers, slot_of(scene, instance));
 }

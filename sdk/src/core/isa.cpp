@@ -24,10 +24,10 @@ Isa best_isa() {
     if (added < 0 || length + static_cast<std::size_t>(added) >= sizeof there) break;
     length += static_cast<std::size_t>(added);
   }
-  throw Failure(
-      NOOK_ERROR_UNSUPPORTED,
-      "this processor or build lacks an instruction set (got isa %d, %s; need one of %s); use NOOK_ISA_AUTO",
-      static_cast<int>(asked), isa_name(asked), there);
+  throw Failure(NOOK_ERROR_UNSUPPORTED,
+                "this processor or this build of Nook does not support the instruction set (got isa %d, %s; "
+                "need one of %s); use NOOK_ISA_AUTO",
+                static_cast<int>(asked), isa_name(asked), there);
 }
 
 }  // namespace

@@ -64,8 +64,8 @@ void check_map(const MapView& map) {
                   map.width, map.height, max_side);
   if (is_cube && map.height != 6 * map.width)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "a cube map of width %u needs a height of %u, six faces (got %u)", map.width, 6 * map.width,
-                  map.height);
+                  "a cube map of width %u needs the height %u for its six faces (got %u)", map.width,
+                  6 * map.width, map.height);
   for (std::size_t i = 0; i < map.rgb.size(); ++i)
     if (!(map.rgb[i] >= 0 && map.rgb[i] <= max_map_radiance))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -44,7 +44,7 @@ void Device::report_host_errors() const {
   for (int i = 0; i < 16; ++i) {
     const GLenum error = gl.GetError();
     if (error == GL_NO_ERROR) return;
-    context.log(NOOK_LOG_WARNING, "nook_gl: the host left the OpenGL error 0x%04x", error);
+    context.log(NOOK_LOG_WARNING, "nook_gl: the OpenGL error 0x%04x was pending before the call", error);
   }
 }
 
@@ -101,11 +101,10 @@ const char* Device::context_fault() const {
 void Device::need_current() const {
   if (!debug || lost) return;
   if (const char* const fault = context_fault())
-    throw Failure(
-        NOOK_ERROR_GL,
-        "%s (need the context of nook_gl_create, also where contexts share objects); make it current "
-        "before the call",
-        fault);
+    throw Failure(NOOK_ERROR_GL,
+                  "%s (need the context of nook_gl_create, even if contexts share objects); make it current "
+                  "before the call",
+                  fault);
 }
 
 bool Device::may_delete() const {
@@ -115,8 +114,8 @@ bool Device::may_delete() const {
   if (!fault) return true;
   if (!told_objects_left_)
     context.log(NOOK_LOG_ERROR,
-                "nook_gl: %s, so that OpenGL objects of Nook cannot be deleted (need the context of "
-                "nook_gl_create); make it current before you destroy handles",
+                "nook_gl: %s, so Nook cannot delete its OpenGL objects (need the context of nook_gl_create); "
+                "make it current before you destroy handles",
                 fault);
   told_objects_left_ = true;
   return false;

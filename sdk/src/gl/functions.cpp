@@ -28,11 +28,10 @@ class Loader {
   void required(F& function, const char* name, const char* version) const {
     optional(function, name);
     if (!function)
-      throw Failure(
-          NOOK_ERROR_UNSUPPORTED,
-          "required function \"%s\" of %s not provided by get_proc; make the context current and pass "
-          "its own loader",
-          name, version);
+      throw Failure(NOOK_ERROR_UNSUPPORTED,
+                    "get_proc did not return the required function \"%s\" of %s; make the context current "
+                    "and pass the context's own loader",
+                    name, version);
   }
 
  private:

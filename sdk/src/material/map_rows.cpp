@@ -183,7 +183,8 @@ void read_map_rows(ByteReader& in, const TensorShape& shape, ViewMap& map) {
     if (code > 2 || (members == Members::of_row && !cells.has_row(cell)) ||
         (members == Members::of_column && !cells.has_column(cell)))
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "section %s: cell %zu has the clusters of no cell (got code %u); bake the file again",
+                    "section %s: cell %zu takes the clusters of a cell that does not exist (got code %u); "
+                    "bake the file again",
                     in.name(), cell, code);
     for (std::uint32_t term = 0; term < shape.mixture; ++term)
       cells.clusters(cell)[term] = members != Members::own

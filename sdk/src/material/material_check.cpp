@@ -28,7 +28,7 @@ struct Check {
   void numbers(const char* what, const Vector<float>& values, float limit) const {
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!(std::abs(values[i]) <= limit))
-        throw Failure(code, "number %zu of the %s of the %s is out of range (got %g, need at most %g)", i,
+        throw Failure(code, "element %zu of the %s of the %s is out of range (got %g, need at most %g)", i,
                       what, name, double(values[i]), double(limit));
   }
 };
@@ -59,11 +59,12 @@ void check_rows(const ViewRows& rows, const TensorShape& shape, std::size_t coun
     const std::uint16_t* const first = &rows.membership[row * shape.mixture];
     for (std::uint32_t k = 0; k < shape.mixture; ++k) {
       if (first[k] >= shape.clusters)
-        throw Failure(check.code, "%s %zu of the %s names no cluster (got %u, need less than %u)", members,
-                      row * shape.mixture + k, check.name, first[k], shape.clusters);
+        throw Failure(check.code,
+                      "%s %zu of the %s refers to a cluster that does not exist (got %u, need less than %u)",
+                      members, row * shape.mixture + k, check.name, first[k], shape.clusters);
       if (std::find(first, first + k, first[k]) != first + k)
-        throw Failure(check.code, "%s of row %zu of the %s name cluster %u twice", members, row, check.name,
-                      first[k]);
+        throw Failure(check.code, "%s of row %zu of the %s contain cluster %u twice", members, row,
+                      check.name, first[k]);
     }
   }
 }
@@ -99,7 +100,7 @@ void check_relief(const Relief& relief, const TensorShape& btf, nook_result code
   check.range("the number of steps", relief.steps, 0, max_relief_steps);
   check.sized("levels", relief.levels.size(), is_plane ? 0 : std::size_t(btf.width) * btf.height);
   if (is_plane && relief.low != relief.high)
-    throw Failure(code, "the relief has no steps, but has heights of %g to %g", double(relief.low),
+    throw Failure(code, "the relief has 0 steps, but its heights reach from %g to %g", double(relief.low),
                   double(relief.high));
 }
 
@@ -113,8 +114,8 @@ void check_neural(const Material& material, nook_result code) {
     const int upper = std::int8_t(neural.blocks[i]), lower = std::int8_t(neural.blocks[i + 1]);
     if (upper < lower || lower < -neural_feature_steps)
       throw Failure(code,
-                    "the ends of block %zu of the neural material are out of range (got %d and %d, need the "
-                    "upper one first, and at least -127)",
+                    "the end values of block %zu of the neural material are out of range (got %d and %d, "
+                    "need the upper value first, and both at least -127)",
                     i / neural_block_bytes, upper, lower);
   }
   for (std::size_t i = 0; i < neural.weights.size(); ++i)
@@ -173,7 +174,7 @@ void check_block_bytes(const BlockSize& size) {
 void refuse_neural(bool is_neural, const char* what) {
   if (is_neural)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the material is neural: its radiance is not a sum of light modes, but %s needs one; bake "
+                  "the material is neural, so its radiance is not a sum of light modes, which %s needs; bake "
                   "it with the method k-cta",
                   what);
 }
@@ -200,7 +201,7 @@ void check_shape(const TensorShape& shape, std::size_t lights, std::size_t views
 
 void check_material(const Material& material, nook_result code) {
   if (material.bits != 8 && material.bits != 16)
-    throw Failure(code, "the form of numbers is unknown (got %u, need 8 or 16)", material.bits);
+    throw Failure(code, "the number format is unknown (got %u bits, need 8 or 16)", material.bits);
   check_fits("the rounding of cores", material.core_rounding,
              material.core_rounding > 0 && material.core_rounding < 1, "more than 0 and less than 1", code);
   check_directions(material.lights, {code, "lights"});

@@ -25,7 +25,7 @@ Head read_head(ByteReader in, std::uint32_t version, Material& material) {
   if (version >= 2) material.bits = in.u8();
   if (material.bits != 8 && material.bits != 16)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the form of numbers is unknown (got %u, need 8 or 16); use a newer library",
+                  "the number format is unknown (got %u bits, need 8 or 16); use a newer library",
                   material.bits);
   in.check_end();
   return head;

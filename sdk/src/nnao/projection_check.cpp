@@ -154,14 +154,16 @@ void check_perspective_depth(const Matrix& m, ClipRange clip) {
                        changed.ratio() > usual_depth_ratio;
   if (given.before_camera() && !doubled) return;
   if (changed.before_camera())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.projection has reversed depth of another clip range (got [10] %g and [14] %g with "
-                  "frame.clip_space %d, whose ends lie at %g and %g metres); set frame.clip_space %s",
-                  m[10], m[14], int(clip), 1 / given.first, 1 / given.last, clip_name(other));
-  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "frame.projection has its near or far plane behind the camera (got [10] %g and [14] %g, "
-                "which are %g and %g metres; need two depths above 0); give the matrix that drew the depth",
-                m[10], m[14], 1 / given.first, 1 / given.last);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "frame.projection has reversed depth for another clip range (got [10] %g and [14] %g, which with "
+        "frame.clip_space %d put the ends of the range at %g and %g metres); set frame.clip_space %s",
+        m[10], m[14], int(clip), 1 / given.first, 1 / given.last, clip_name(other));
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "frame.projection has its near or far plane behind the camera (got [10] %g and [14] %g, which put the "
+      "planes at depths of %g and %g metres; need two depths above 0); pass the matrix that drew the depth",
+      m[10], m[14], 1 / given.first, 1 / given.last);
 }
 
 [[noreturn]] void refuse_hand(const Matrix& m, int element) {
@@ -182,7 +184,7 @@ void check_hardware_depth(const Matrix& m, ClipRange clip) {
   const int element = m.perspective() ? 14 : 10;
   if (m[element] == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.projection is singular: depth does not depend on the distance (got [%d] 0)",
+                  "frame.projection is singular: its depth does not depend on the distance (got 0 in [%d])",
                   element);
   // The near and far planes of an oblique projection do not have a constant depth.
   if (m.oblique()) return;
@@ -229,7 +231,7 @@ void check_projection(const float (&projection)[16], DepthKind kind, ClipRange c
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "frame.projection is not a projection of a camera that looks along -z, or is singular (got "
                   "[0] %g, [5] %g, [11] %g, [15] %g; need [0] and [5] other than 0, and [11] below 0 or [15] "
-                  "above 0); a view-projection is not one, give the projection alone",
+                  "above 0); pass the projection alone, not multiplied by a view matrix",
                   m[0], m[5], m[11], m[15]);
   if (const int i = stray_element(m); i >= 0)
     throw Failure(
@@ -238,8 +240,8 @@ void check_projection(const float (&projection)[16], DepthKind kind, ClipRange c
         m[i]);
   if (kind == DepthKind::logarithmic && !m.perspective())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.depth_kind %d needs a perspective (got frame.projection[11] %g, need less than 0); "
-                  "give the depth that OpenGL wrote",
+                  "frame.depth_kind %d needs a perspective projection (got frame.projection[11] %g, need "
+                  "less than 0); use the depth that OpenGL wrote",
                   int(kind), m[11]);
   if (kind == DepthKind::hardware) check_hardware_depth(m, clip);
 }

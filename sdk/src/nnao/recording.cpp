@@ -25,7 +25,7 @@ void check_frame(const RecordedFrame& frame) {
              share ? "a share of the screen, more than 0 up to 1" : "more than 0 metres");
   check_shape(frame, name_in_recording);
   check_fits("sky_depth", frame.sky_depth, frame.sky_depth >= 0, "0 or more metres");
-  check_fits("normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
+  check_fits("normal_scale", frame.normal_scale, frame.normal_scale != 0, "a finite number other than 0");
   check_fits("normal_bias", frame.normal_bias, true, "a number");
   check_normal_matrix(frame.normal_matrix);
   check_projection(frame.projection, DepthKind(frame.depth_kind), ClipRange(frame.clip));
@@ -43,7 +43,7 @@ void check_pass(const RecordedPass& pass) {
 
 void check_image(const char* field, const Vector<float>& image, std::size_t count) {
   if (image.size() != count)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s has another size (got %zu numbers, need %zu)", field,
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s has the wrong size (got %zu numbers, need %zu)", field,
                   image.size(), count);
 }
 

@@ -36,8 +36,8 @@ void check_settings(const Basis& basis, const FitSettings& settings) {
                            settings.method == FitMethod::non_negative_least_squares;
   if (signed_only && basis.kind == BasisKind::harmonics)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "method %d needs functions that are never negative, but harmonics can be; use a running "
-                  "average, moments or least squares",
+                  "method %d needs functions that are never negative, but harmonics can be negative; use a "
+                  "running average, moments or least squares",
                   int(settings.method));
 }
 
@@ -93,7 +93,8 @@ void Fit::prepare_gram(Memory* memory) {
   const std::uint32_t dependent = cholesky(factor_.data(), n, smallest_pivot);
   if (dependent < n)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "function %u is nearly a mixture of the %u before it; use fewer or sharper lobes",
+                  "function %u is nearly a linear combination of the %u functions before it; use fewer or "
+                  "sharper lobes",
                   dependent, dependent);
   float* const constants = floats_.data();
   for (std::uint32_t i = 0; i < padded_; ++i) {

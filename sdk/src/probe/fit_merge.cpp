@@ -23,7 +23,7 @@ void add_counts(SampleCounts& counts, const SampleCounts& more) {
 void Fit::seed(Fit& short_run) {
   if (!(short_run.basis_ == basis_))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "short_run has another basis; make both with the same functions and domain");
+                  "short_run has another basis than the fit; create both with the same functions and domain");
   if (!is_running(settings_.method)) return;
   if (counts().used > 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -63,7 +63,7 @@ void Fit::merge(Fit& other) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the fits differ in basis or method; make both from equal descriptors");
   if (&other == this)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a fit cannot be merged with itself; make a second one");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a fit cannot be merged with itself; create a second fit");
   take_recent();
   const SampleCounts their_counts = other.counts();
   const double their_weight = their_counts.weight + other.prior_weight_;

@@ -43,7 +43,8 @@ bool has_pivots(const double* factor, const double* other, std::uint32_t n, doub
 void Fit::read(std::span<Vec3> coefficients) {
   const std::size_t n = basis_.count;
   if (coefficients.size() != n)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "function_count is not the fit's (got %zu, need %zu)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "function_count differs from the fit's number of functions (got %zu, need %zu)",
                   coefficients.size(), n);
   std::array<double, 3 * max_functions> b{};  // function by function
   take_recent();
@@ -181,9 +182,10 @@ const double* Fit::gloss_moments(const Gathered& gathered, double* moments) {
 void Fit::read_gloss(std::span<Vec3> amplitudes) {
   const std::uint32_t n = basis_.count;
   if (amplitudes.size() != n || basis_.kind != BasisKind::gaussians)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "gloss needs the amplitudes of lobes (got %zu of basis %d, need %u of basis 0)",
-                  amplitudes.size(), int(basis_.kind), n);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "gloss amplitudes need a basis of lobes (got %zu amplitudes of basis %d, need %u of basis 0)",
+        amplitudes.size(), int(basis_.kind), n);
   std::fill(amplitudes.begin(), amplitudes.end(), Vec3{});
   take_recent();
   const Gathered gathered = present(room());

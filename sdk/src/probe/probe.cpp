@@ -71,17 +71,18 @@ void check_walls(const Probes& probes, nook_result code) {
     for (const WallPlane& plane : walls.cell[i].plane)
       for (const float value : {plane.normal.x, plane.normal.y, plane.normal.z, plane.offset})
         if (!(std::abs(value) <= max_plane))
-          throw Failure(code, "a plane of cell %zu is out of range (got %g, need at most %g)", i,
+          throw Failure(code, "a wall plane of cell %zu is out of range (got %g, need at most %g)", i,
                         double(value), double(max_plane));
     for (const std::uint8_t mask : walls.cell[i].counts)
-      if (mask == 0) throw Failure(code, "one side of cell %zu has no probe (need at least 1)", i);
+      if (mask == 0) throw Failure(code, "a side of the wall in cell %zu has no probe (need at least 1)", i);
   }
 }
 
 void check_gloss(const Probes& probes, nook_result code) {
   if (!probes.has_gloss()) return;
   if (probes.basis.kind != BasisKind::gaussians || probes.gloss.size() != probes.coefficients.size())
-    throw Failure(code, "the number of amplitudes for gloss is wrong (got %zu, need %zu of lobes, or none)",
+    throw Failure(code,
+                  "the number of gloss amplitudes is wrong (got %zu, need %zu for a basis of lobes, or 0)",
                   probes.gloss.size(), probes.coefficients.size());
   for (std::size_t i = 0; i < probes.gloss.size(); ++i)
     for (const float channel : {probes.gloss[i].x, probes.gloss[i].y, probes.gloss[i].z})

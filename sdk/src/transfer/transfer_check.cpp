@@ -23,7 +23,7 @@ void need_size(std::size_t got, std::uint64_t need, const char* what, nook_resul
 void check_halves(std::span<const std::uint16_t> halves, float limit, const char* what, nook_result code) {
   for (std::size_t i = 0; i < halves.size(); ++i)
     if (!(std::abs(from_half(halves[i])) <= limit))
-      throw Failure(code, "number %zu of the %s is out of range (got %g, need -%g to %g)", i, what,
+      throw Failure(code, "element %zu of the %s is out of range (got %g, need -%g to %g)", i, what,
                     double(from_half(halves[i])), double(limit), double(limit));
 }
 
@@ -104,7 +104,7 @@ std::uint64_t hash_floats(std::span<const float> values) {
 void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh) {
   if (mesh.vertex_count != transfer.vertex_count())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the mesh has another number of vertices than the baked one (got %u, need %u); bake the "
+                  "the mesh has another number of vertices than the baked mesh (got %u, need %u); bake the "
                   "transfer of this mesh",
                   mesh.vertex_count, transfer.vertex_count());
   const struct {
@@ -130,8 +130,8 @@ void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh) {
 void check_same_material(const Transfer& transfer, std::uint64_t votf_hash) {
   if (transfer.votf_hash == 0 || transfer.votf_hash == votf_hash) return;
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "the VOTF of the material is not the one whose holes were baked (got the hash %016llx, need "
-                "%016llx); bake the transfer with this material",
+                "the transfer was baked with the holes of another material, as its VOTF shows (got the hash "
+                "%016llx, need %016llx); bake the transfer with this material",
                 static_cast<unsigned long long>(votf_hash),
                 static_cast<unsigned long long>(transfer.votf_hash));
 }
@@ -139,28 +139,27 @@ void check_same_material(const Transfer& transfer, std::uint64_t votf_hash) {
 void check_same_light(const Transfer& transfer, std::uint32_t light_modes, std::uint64_t light_hash) {
   const PaperTransfer& paper = transfer.paper;
   if (!paper.is_used() || (paper.light_modes == light_modes && paper.light_hash == light_hash)) return;
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "the light modes of the material are not those that the paper's form was baked with (got %u "
-      "modes with the hash %016llx, need %u with %016llx); bake the transfer with this material, or "
-      "in the separated form, which takes any",
-      light_modes, static_cast<unsigned long long>(light_hash), paper.light_modes,
-      static_cast<unsigned long long>(paper.light_hash));
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "the transfer has the paper's form and was baked with other light modes (got %u modes with "
+                "the hash %016llx, need %u with %016llx); bake it with this material, or in the separated "
+                "form, which works with any material",
+                light_modes, static_cast<unsigned long long>(light_hash), paper.light_modes,
+                static_cast<unsigned long long>(paper.light_hash));
 }
 
 void check_same_lobes(const Transfer& transfer, std::uint32_t lobes) {
   if (transfer.lobes == lobes) return;
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "lobe_count differs from the transfer's (got %u, need %u); make the response and the fit "
-                "with the same number",
+                "lobe_count differs from the transfer's lobe count (got %u, need %u); create the response "
+                "and the fit with the same number of lobes",
                 lobes, transfer.lobes);
 }
 
 void check_amplitudes(const float* amplitudes, std::uint32_t got, std::uint32_t lobes) {
   constexpr float max_amplitude = 1e22f;
   if (got != lobes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "lobe_count differs from the response's (got %u, need %u)",
-                  got, lobes);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "lobe_count differs from the response's lobe count (got %u, need %u)", got, lobes);
   for (std::uint32_t i = 0; i < 3 * lobes; ++i)
     if (!(std::abs(amplitudes[i]) <= max_amplitude))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -40,7 +40,9 @@ void read_shares(ByteReader& codes, ByteReader& shares, std::uint32_t vertices, 
       const std::uint32_t code = std::uint32_t(byte) >> (2 * (j % 4)) & 3u;
       if (code > partly || (code == partly && next == bytes.size()))
         throw Failure(NOOK_ERROR_BAD_FILE,
-                      "the share of lobe %u at vertex %zu is unknown or missing; bake the file again", j, v);
+                      "the stored share of lobe %u at vertex %zu has an unknown code or is missing; bake the "
+                      "file again",
+                      j, v);
       std::uint8_t& share = transfer.shares[v * transfer.lobes + j];
       share = code == partly ? std::uint8_t(bytes[next++])
               : code == open ? std::uint8_t(255)

@@ -25,7 +25,8 @@ void check_range_of(const nook_gl_poses& poses) {
                   "poses.texture is %u, and transforms in textures are not supported; copy the texels to a "
                   "buffer",
                   poses.texture);
-  if (!poses.buffer) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "poses.buffer is 0; give a buffer");
+  if (!poses.buffer)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "poses.buffer is 0; set it to the name of an OpenGL buffer");
   constexpr std::uint64_t most = std::uint64_t{1} << 40;
   if (poses.offset % 4 || poses.size % 4 || poses.offset > most || poses.size > most || poses.size == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -41,17 +42,18 @@ PoseSource checked_source(const CharacterModel& model, const nook_gl_poses& pose
                   "poses.pose->transforms is not NULL; the transforms are in poses.buffer");
   if (poses.pose->place_3x4)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "poses.pose->place_3x4 is not NULL; each instance has a place of its own");
+                  "poses.pose->place_3x4 is not NULL; set instances[].place_3x4 for each instance instead");
   if (source.is_strict)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "poses.pose->flags has NOOK_POSE_FLAG_STRICT, which needs the numbers on the CPU; leave it "
-                  "out");
+                  "poses.pose->flags has NOOK_POSE_FLAG_STRICT, which needs the transforms on the CPU; leave "
+                  "the flag out");
   const std::size_t bytes = floats_of_layout(source.layout) * (poses.format == NOOK_FORMAT_HALF ? 2 : 4);
   const std::size_t stride = source.stride ? source.stride : bytes;
   if (stride < bytes || stride % 4)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "poses.pose->stride is out of range (got %zu bytes, need 0 or a multiple of 4 from %zu on)",
-                  stride, bytes);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "poses.pose->stride is out of range (got %zu bytes, need 0, or a multiple of 4 that is at least %zu)",
+        stride, bytes);
   constexpr std::size_t most = std::size_t{1} << 30;
   check_at_most("poses.pose->stride", static_cast<std::uint32_t>(std::min(stride, most + 4)), most);
   // check_pose_source requires a pointer to transforms on the CPU, so pass a pointer that is not null.
@@ -91,10 +93,9 @@ nook_result nook_gl_scene_set_poses(nook_gl gl, nook_scene scene, const nook_gl_
     need(instances, "instances");
     check_range_of(*poses);
     if (scene->scene.settings.strict_poses)
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "the scene has strict_poses, which need the numbers on the CPU; call nook_scene_set_pose, "
-          "or create the scene without strict_poses");
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "the scene was created with strict_poses, which needs the transforms on the CPU; call "
+                    "nook_scene_set_pose, or create the scene without strict_poses");
     const CharacterModel& model = instance_of(scene->scene, instances[0].instance).model->model;
     gl::PoseBatch batch;
     batch.source = checked_source(model, *poses);

@@ -17,7 +17,8 @@ gl::VertexValues place_of(nook_gl_s& gl, nook_scene_s& scene, nook_instance_id i
       return gl.characters->light_place(scene.scene, instance).directional_ao;
     default:
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "channel is not on the GPU (got %d, need %d or %d); nook_scene_read has the others",
+                    "channel is not available on the GPU (got %d, need %d or %d); read the other channels "
+                    "with nook_scene_read",
                     channel, NOOK_CHANNEL_AO, NOOK_CHANNEL_DIRECTIONAL_AO);
   }
 }
@@ -42,15 +43,15 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
                   static_cast<unsigned long long>(target.instance_stride), count);
   const bool in_buffer = target.buffer != 0;
   if (in_buffer && (target.offset % 4 || target.instance_stride % 4 || target.stride % 4))
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "target.offset, target.instance_stride and target.stride are %llu, %llu and %u; need multiples "
-        "of 4 in a buffer",
-        static_cast<unsigned long long>(target.offset),
-        static_cast<unsigned long long>(target.instance_stride), target.stride);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.offset, target.instance_stride and target.stride are %llu, %llu and %u; a buffer "
+                  "needs multiples of 4",
+                  static_cast<unsigned long long>(target.offset),
+                  static_cast<unsigned long long>(target.instance_stride), target.stride);
   if (in_buffer ? target.texture_width != 0 : target.stride != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.stride of a texture or target.texture_width of a buffer is not 0 (got %u and %u)",
+                  "target.stride must be 0 for a texture, and target.texture_width must be 0 for a buffer "
+                  "(got %u and %u)",
                   target.stride, target.texture_width);
   if (count > 1 && target.instance_stride == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

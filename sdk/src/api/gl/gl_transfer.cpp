@@ -27,7 +27,8 @@ nook_gl_upload upload_vectors(nook_gl gl, nook_transfer_response response, std::
 
 void check_count(std::uint64_t float_count, std::uint64_t needed) {
   if (float_count != needed)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "float_count differs from the upload's (got %llu, need %llu)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "float_count differs from the upload's number of floats (got %llu, need %llu)",
                   static_cast<unsigned long long>(float_count), static_cast<unsigned long long>(needed));
 }
 
@@ -83,6 +84,6 @@ nook_result nook_gl_update_transfer(nook_gl_upload upload, const float* values, 
       update_paper(*upload->gl, *paper, values, float_count);
     else
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "upload is not a transfer; give one that nook_gl_upload_transfer made");
+                    "upload is not a transfer; pass an upload that nook_gl_upload_transfer created");
   });
 }

@@ -86,7 +86,8 @@ void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool co
   constexpr float default_reach_m = 30;
   if (!coloured && (desc.lobe_count > 0 || desc.light_degrees != 0))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.%s needs a coloured pass, and this one is not; create a coloured pass",
+                  "desc.%s needs a coloured pass, but this pass is not coloured; create the pass with "
+                  "nook_world_desc.coloured",
                   desc.lobe_count > 0 ? "lobes" : "light_degrees");
   drawn.light = api::terms_of_lobes("desc", desc.lobes, desc.lobe_count, drawn.screen.view);
   if (desc.light_degrees == 0) return;

@@ -66,22 +66,22 @@ gl::NnaoSettings checked_nnao_desc(const nook_nnao_desc* given) {
              desc.max_history_frames == 0 || (desc.max_history_frames >= 2 && desc.max_history_frames <= 64),
              "0, or 2 to 64");
   if (desc.max_history_frames != 0 && desc.bent_normals)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "desc.max_history_frames does not go with desc.bent_normals (got %d and 1); use one of them",
-        desc.max_history_frames);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.max_history_frames cannot be combined with desc.bent_normals (got %d and 1); use "
+                  "only one of them",
+                  desc.max_history_frames);
   check_range("desc.depth_samples", desc.depth_samples, 0, 16);
   check_range("desc.views", desc.views, 0, gl::max_layers);
   if (desc.normal_samples != 0 && desc.normal_samples != desc.depth_samples)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.normal_samples differs from desc.depth_samples (got %d and %d, need 0 or the same "
-                  "number); a pixel has the normal of the sample whose depth it has",
+                  "number); each pixel uses the normal of the same sample that its depth comes from",
                   desc.normal_samples, desc.depth_samples);
   if (!desc.network && desc.network_size != 0)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "desc.network is NULL with desc.network_size %zu; give the bytes, or 0 for the embedded network",
-        desc.network_size);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.network is NULL, but desc.network_size is %zu; pass the bytes of the network, or set "
+                  "the size to 0 for the embedded network",
+                  desc.network_size);
   return desc;
 }
 
@@ -92,10 +92,9 @@ std::span<const std::byte> network_bytes(const nook_nnao_desc& desc) {
 
 void check_form(const nook_nnao_desc& desc, nnao::NetworkForm form) {
   if (desc.bent_normals && form == nnao::NetworkForm::paper)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "desc.bent_normals needs a network of the horizon form (got one of the paper's form); train "
-        "one, or leave desc.network NULL");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.bent_normals needs a network of the horizon form, but desc.network has the paper's "
+                  "form; train a network of the horizon form, or leave desc.network NULL");
 }
 
 }  // namespace nook::api

@@ -42,10 +42,9 @@ gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_fra
   if (blend != NOOK_BLEND_WRITE && blend != NOOK_BLEND_MULTIPLY)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.blend is unknown (got %d, need 0 or 1)", blend);
   if (frame.show == NOOK_NNAO_VIEW_RAW && desc.max_history_frames)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "debug.show %d cannot be read in a pass with max_history_frames %d; read NOOK_NNAO_IMAGE_AO",
-        frame.show, desc.max_history_frames);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "debug.show %d is not available with desc.max_history_frames %d; read NOOK_NNAO_IMAGE_AO",
+                  frame.show, desc.max_history_frames);
   frame.blend = blend;
   // The host's texture format is not known here. But if the bias is not 0, the format must be a normalised
   // integer format.
@@ -64,8 +63,8 @@ nook_result nook_nnao_stages_create(nook_context context, const nook_nnao_desc* 
     const nnao::Network network = nnao::read_network(network_bytes(known), context->memory());
     if (network.form != nnao::NetworkForm::horizon)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.network has the paper's form (need the horizon form); train one, or leave "
-                    "desc.network NULL");
+                    "desc.network has the paper's form (need the horizon form); train a network of the "
+                    "horizon form, or leave desc.network NULL");
     *out = Owned<nook_nnao_stages_s>::make(context->memory(), Ref<nook_context_s>::share(context), known,
                                            network, context->memory())
                .detach();

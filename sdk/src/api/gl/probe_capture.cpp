@@ -63,12 +63,12 @@ void check_targets(nook_gl gl, const nook_gl_capture_desc& desc) {
                   "desc.probe or desc.grid belongs to another nook_gl; create both with this one");
   if (desc.probe && !desc.probe->probe())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.probe is not an upload of NOOK_GL_PROBE_LOBES; give a grid of diffuse light as "
-                  "desc.grid");
+                  "desc.probe is not an upload of NOOK_GL_PROBE_LOBES; pass a grid of diffuse light as "
+                  "desc.grid instead");
   if (desc.grid && !desc.grid->grid())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.grid is not an upload of NOOK_GL_PROBE_SH or NOOK_GL_PROBE_ZH3; give lobes as "
-                  "desc.probe");
+                  "desc.grid is not an upload of NOOK_GL_PROBE_SH or NOOK_GL_PROBE_ZH3; pass an upload of "
+                  "lobes as desc.probe instead");
   if (desc.probe && desc.probe->probe()->basis().domain != probe::Domain::sphere)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,

@@ -113,11 +113,10 @@ const char* kind_of(std::string_view uniform) {
                     "program has no sampler of %s (got %s of %s, need %s); compile it with the GLSL of this "
                     "upload",
                     kind_of(info.textures[0].uniform), mark.uniform, mark.kind, info.textures[0].uniform);
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "program has no sampler of %s (need %s); compile it with the GLSL of this upload and call its "
-      "functions, or do not bind where a shader reads none of its textures",
-      kind_of(info.textures[0].uniform), info.textures[0].uniform);
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "program has no sampler of %s (need %s); compile it with the GLSL of this upload and call "
+                "its functions. If no shader of the program reads the upload's textures, do not bind it",
+                kind_of(info.textures[0].uniform), info.textures[0].uniform);
 }
 
 void check_program(const gl::Functions& gl, GLuint program) {
@@ -132,8 +131,8 @@ void check_units(const gl::Functions& gl, std::uint32_t first_unit, std::uint32_
   const auto units = static_cast<std::uint32_t>(gl::integer(gl, GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS));
   if (first_unit > units || count > units - first_unit)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "first_unit is too large (got %u with %u textures, need units below %u)", first_unit, count,
-                  units);
+                  "first_unit is too large (got %u for %u textures, need all units below %u)", first_unit,
+                  count, units);
 }
 
 void bind(const gl::Functions& gl, const nook_gl_upload_info& info, GLuint program,
@@ -197,7 +196,8 @@ nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe probe) {
     else if (gl::GridVolume* const grid = upload->grid())
       gl.guarded(gl::grids, [&] { grid->update(probe->probes); });
     else
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "upload is %s; give one that nook_gl_upload_probe made",
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "upload is %s; pass an upload that nook_gl_upload_probe created",
                     kind_of(info_of(*upload).textures[0].uniform));
   });
 }

@@ -105,10 +105,9 @@ void AoOutput::write_packed(const VertexValues& source, const BufferTarget& targ
 void AoOutput::write_strided(const VertexValues& source, const BufferTarget& target) {
   const Functions& gl = device_.gl;
   if (!gl.can.compute)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "target.stride needs compute shaders (OpenGL 4.3 or OpenGL ES 3.1), which this context does not "
-        "have; write tightly packed values and read them as a vertex attribute of their own");
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "target.stride needs compute shaders (OpenGL 4.3 or OpenGL ES 3.1), which this context "
+                  "does not have; leave target.stride 0 and read the values as a separate vertex attribute");
   Object& program = strided_[static_cast<std::size_t>(target.format)];
   if (!program.name())
     program = compute_program(device_, "character/pack_strided.comp", PackDefines(target.format).text);
@@ -120,7 +119,7 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
   const std::uint64_t target_end = target.offset + std::uint64_t{target.stride} * (source.vertices - 1) + 4;
   if (target_end - target_begin > device_.max_piece_bytes)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the values of an instance span %llu bytes (this OpenGL writes %llu)",
+                  "the values of an instance span %llu bytes (this OpenGL can write at most %llu)",
                   static_cast<unsigned long long>(target_end - target_begin),
                   static_cast<unsigned long long>(device_.max_piece_bytes));
   gl.UseProgram(program.name());
@@ -145,9 +144,10 @@ std::uint32_t checked_width(const Device& device, const VertexValues& source, co
   const Functions& gl = device.gl;
   if (!gl.can.texture_sizes) {
     if (target.width == 0)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "target.texture_width is 0 (%s %d.%d does not tell it, need the texture's width)",
-                    api_name(gl), gl.version / 10, gl.version % 10);
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "target.texture_width is 0 (%s %d.%d cannot report it); set it to the width of the texture",
+          api_name(gl), gl.version / 10, gl.version % 10);
     return target.width;
   }
   GLint width = 0, height = 0;
@@ -179,11 +179,11 @@ void check_format(const Device& device, const TextureTarget& target) {
                     : target.format == NOOK_FORMAT_HALF ? is_float && bits == 16
                                                         : type == GL_UNSIGNED_NORMALIZED && bits == 8;
   if (!fits)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "target.format differs from the format of texture %u (got %d for red in %d bits; OpenGL ES needs "
-        "NOOK_FORMAT_FLOAT for GL_R32F, NOOK_FORMAT_HALF for GL_R16F, NOOK_FORMAT_UNORM8 for GL_R8)",
-        target.texture, target.format, bits);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "target.format differs from the format of texture %u (got %d, but its red channel has %d "
+                  "bits; OpenGL ES needs NOOK_FORMAT_FLOAT for GL_R32F, NOOK_FORMAT_HALF for GL_R16F, "
+                  "NOOK_FORMAT_UNORM8 for GL_R8)",
+                  target.texture, target.format, bits);
 }
 
 struct UploadType {

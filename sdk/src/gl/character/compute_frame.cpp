@@ -52,12 +52,11 @@ void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t cast
   const std::uint64_t first_light = first_caster + casters;
   frame.bytes = (first_light + lights) * sizeof(Word4);
   if (frame.bytes > device.max_piece_bytes)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "the poses, links and lights of a chunk need %llu bytes, this OpenGL allows %llu; link fewer "
-        "instances",
-        static_cast<unsigned long long>(frame.bytes),
-        static_cast<unsigned long long>(device.max_piece_bytes));
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the poses, links and lights of a chunk need %llu bytes, but this OpenGL allows %llu; link "
+                  "fewer instances",
+                  static_cast<unsigned long long>(frame.bytes),
+                  static_cast<unsigned long long>(device.max_piece_bytes));
   frame.bones = static_cast<std::uint32_t>(bones);
   frame.casters = static_cast<std::uint32_t>(first_caster);
   frame.lights = static_cast<std::uint32_t>(first_light);

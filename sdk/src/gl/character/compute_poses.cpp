@@ -46,8 +46,8 @@ void check_place(const ComputeScene& placed, const PoseBatch& batch, const Insta
                  const Instance& first, std::size_t index) {
   if (instance.model.get() != first.model.get())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "instances[%zu] (instance %u) has another model than instances[0]; call once for each "
-                  "model",
+                  "instances[%zu] (instance %u) has another model than instances[0]; make a separate call "
+                  "for each model",
                   index, instance.id);
   const Placement<ComputeChunk>& placement = placed.placements[slot_of(*placed.scene, instance)];
   if (placement.chunk->pose_call[placement.place] == placed.pose_calls)
@@ -56,8 +56,8 @@ void check_place(const ComputeScene& placed, const PoseBatch& batch, const Insta
   if (batch.source.is_partial && instance.input.is_posed_on_gpu &&
       placement.chunk->posed_of[placement.place] != pose_of(instance))
     throw Failure(NOOK_ERROR_INVALID_HANDLE,
-                  "this nook_gl does not have the pose of instance %u, which bones without a transform "
-                  "keep; set all bones once",
+                  "this nook_gl does not have the pose of instance %u, but the bones without a transform "
+                  "would keep it; set all bones once",
                   instance.id);
 }
 
@@ -92,8 +92,7 @@ std::uint64_t lay_out_jobs(const Device& device, ComputeScene& placed) {
     if (frame.bytes > device.max_piece_bytes)
       throw Failure(
           NOOK_ERROR_UNSUPPORTED,
-          "the poses of a chunk need %llu bytes, this OpenGL allows %llu; pass fewer instances in a "
-          "call",
+          "the poses of a chunk need %llu bytes, but this OpenGL allows %llu; pass fewer instances in a call",
           static_cast<unsigned long long>(frame.bytes),
           static_cast<unsigned long long>(device.max_piece_bytes));
     frame.offset = (end + device.storage_alignment - 1) / device.storage_alignment * device.storage_alignment;
@@ -267,7 +266,7 @@ void ComputeTier::read_pose(const Scene& scene, nook_instance_id id, std::span<M
   if (!chunk || !instance.input.is_posed_on_gpu ||
       chunk->posed_of[placed->placements[slot].place] != pose_of(instance))
     throw Failure(NOOK_ERROR_INVALID_HANDLE,
-                  "this nook_gl does not have the pose of instance %u; call nook_gl_scene_set_poses before",
+                  "this nook_gl does not have the pose of instance %u; first call nook_gl_scene_set_poses",
                   id);
   device_.report_host_errors();
   device_.gl.MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);

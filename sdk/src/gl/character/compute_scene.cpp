@@ -166,7 +166,7 @@ void ComputeScene::make_sphere_buffers(Device& device) {
   if (count * bytes_each > device.max_piece_bytes)
     throw Failure(
         NOOK_ERROR_UNSUPPORTED,
-        "the scene has %llu proxy spheres, this OpenGL allows %llu; remove instances or use two scenes",
+        "the scene has %llu proxy spheres, but this OpenGL allows %llu; remove instances or use two scenes",
         static_cast<unsigned long long>(count),
         static_cast<unsigned long long>(device.max_piece_bytes / bytes_each));
   const bool grown = count * bytes_each > spheres.bytes();

@@ -121,8 +121,8 @@ void FeedbackScene::make_colour_page(Device& device) {
   }
   if (largest > device.max_texels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "a model with a light has %llu key points, a texture buffer of this OpenGL holds %u; use a "
-                  "model with fewer key points",
+                  "a model with a light has %llu key points, but a texture buffer of this OpenGL holds %u; "
+                  "use a model with fewer key points",
                   static_cast<unsigned long long>(largest / NOOK_COLOUR_VEC4S),
                   device.max_texels / NOOK_COLOUR_VEC4S);
   constexpr std::uint64_t enough = 1 << 19;

@@ -52,8 +52,8 @@ void LightTexture::upload(Device& device, const Scene& scene) {
   if (texels == 0) return;
   if (texels > device.max_texels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the lights of the scene need %llu texels, a texture buffer of this OpenGL holds %u; light "
-                  "fewer instances or use fewer lobes",
+                  "the lights of the scene need %llu texels, but a texture buffer of this OpenGL holds %u; "
+                  "light fewer instances or use fewer lobes",
                   static_cast<unsigned long long>(texels), device.max_texels);
   table_.write(device, texels, [&](void* memory) {
     std::uint32_t next = 0;

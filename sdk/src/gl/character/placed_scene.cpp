@@ -6,10 +6,11 @@ namespace nook::gl {
 
 Buffer static_buffer(Device& device, const char* label, const void* data, std::uint64_t bytes) {
   if (bytes > device.max_piece_bytes)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "a model needs %llu bytes in one buffer, this OpenGL allows %llu; use a model with fewer vertices",
-        static_cast<unsigned long long>(bytes), static_cast<unsigned long long>(device.max_piece_bytes));
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "a model needs %llu bytes in one buffer, but this OpenGL allows %llu; use a model with "
+                  "fewer vertices",
+                  static_cast<unsigned long long>(bytes),
+                  static_cast<unsigned long long>(device.max_piece_bytes));
   return Buffer(device, label, bytes, data, GL_STATIC_DRAW);
 }
 
@@ -50,10 +51,10 @@ bool ChunkData::has_light(const Scene& scene) const {
 std::uint32_t max_in_chunk(const Device& device, std::uint64_t share) {
   const std::uint64_t max = std::min(device.max_piece_bytes / share, max_groups);
   if (max == 0)
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "one instance needs %llu bytes in one buffer, this OpenGL allows %llu; use a smaller model",
-                  static_cast<unsigned long long>(share),
-                  static_cast<unsigned long long>(device.max_piece_bytes));
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "one instance needs %llu bytes in one buffer, but this OpenGL allows %llu; use a smaller model",
+        static_cast<unsigned long long>(share), static_cast<unsigned long long>(device.max_piece_bytes));
   return static_cast<std::uint32_t>(max);
 }
 

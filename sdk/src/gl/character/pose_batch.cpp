@@ -55,7 +55,7 @@ PoseWindows::PoseWindows(const Device& device, const PoseBatch& batch)
   step_ = one < limit_ ? (limit_ - one) / device.storage_alignment * device.storage_alignment : 0;
   if (step_ == 0)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the transforms of one instance span %llu bytes, this OpenGL allows %llu",
+                  "the transforms of one instance span %llu bytes, but this OpenGL allows %llu",
                   static_cast<unsigned long long>(one), static_cast<unsigned long long>(limit_));
   count_ = static_cast<std::uint32_t>((end_ + step_ - 1) / step_);
 }

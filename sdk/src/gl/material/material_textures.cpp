@@ -28,17 +28,17 @@ void check_blocks(const Functions& gl, const TensorTables& t) {
   if (t.block_form == material::BlockForm::none) return;
   if (!(is_rgtc ? gl.can.rgtc_textures : gl.can.eac_textures))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the material's modes are in blocks that this %s does not have (got %s, need %s); load the "
-                  "material with other modes",
+                  "this %s does not support the block compression of the material's modes (got %s, need %s); "
+                  "load the material with other blocks",
                   api_name(gl), is_rgtc ? "NOOK_MATERIAL_BLOCKS_RGTC" : "NOOK_MATERIAL_BLOCKS_EAC",
-                  gl.can.rgtc_textures  ? "NOOK_MATERIAL_BLOCKS_RGTC or PLAIN"
-                  : gl.can.eac_textures ? "NOOK_MATERIAL_BLOCKS_EAC or PLAIN"
+                  gl.can.rgtc_textures  ? "NOOK_MATERIAL_BLOCKS_RGTC or _NONE"
+                  : gl.can.eac_textures ? "NOOK_MATERIAL_BLOCKS_EAC or _NONE"
                                         : "NOOK_MATERIAL_BLOCKS_NONE");
   // The extension for WebGL requires multiples of 4 for the finest level.
   if (is_rgtc && gl.profile == Profile::webgl && (t.width % 4 != 0 || t.height % 4 != 0))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "WebGL has no RGTC textures of the material's size (got %u x %u texels, need multiples of "
-                  "4); load the material with NOOK_MATERIAL_BLOCKS_NONE",
+                  "WebGL does not allow RGTC textures of the material's size (got %u x %u texels, need "
+                  "multiples of 4); load the material with NOOK_MATERIAL_BLOCKS_NONE",
                   t.width, t.height);
 }
 
@@ -52,8 +52,8 @@ void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32
     if (largest > side)
       throw Failure(
           NOOK_ERROR_UNSUPPORTED,
-          "the material needs larger textures than this OpenGL has (got %u texels, need at most %u)", largest,
-          side);
+          "the material needs larger textures than this OpenGL supports (got %u texels, need at most %u)",
+          largest, side);
     if (t->terms * t->view_vec4_count > layers)
       throw Failure(
           NOOK_ERROR_UNSUPPORTED,
@@ -69,11 +69,10 @@ void check_limits(const Functions& gl, const MaterialTables& tables, std::uint32
   const std::size_t count = 1 + std::size_t(tables.relief.steps > 0) + texture_count(tables.btf, max_layers) +
                             texture_count(tables.votf, max_layers);
   if (count > MaterialTextures::max_textures)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "the material needs more textures than a shader has units (got %zu with %u layers each, need at "
-        "most %zu); allow more layers, or bake it with smaller ranks or fewer clusters",
-        count, max_layers, MaterialTextures::max_textures);
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the material needs more textures than a shader can read (got %zu with %u layers each, "
+                  "need at most %zu); allow more layers, or bake it with smaller ranks or fewer clusters",
+                  count, max_layers, MaterialTextures::max_textures);
 }
 
 }  // namespace
@@ -156,9 +155,10 @@ CoordinateTexture::CoordinateTexture(Device& device, const synthesis::Coordinate
     : source_(device.memory), bytes_(sizeof(synthesis::Cell) * coordinates.cells.size()) {
   const auto most = std::uint32_t(integer(device.gl, GL_MAX_TEXTURE_SIZE));
   if (coordinates.side > most)
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the plane is larger than a texture of this OpenGL (got %u texels, need at most %u)",
-                  coordinates.side, most);
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "the plane is larger than the largest texture of this OpenGL (got %u texels, need at most %u)",
+        coordinates.side, most);
   char definitions[200];
   std::snprintf(definitions, sizeof definitions,
                 "#define NOOK_SYNTHESIS_SIDE %u.0\n#define NOOK_SYNTHESIS_MATERIAL_TEXELS vec2(%u.0, %u.0)\n",

@@ -67,10 +67,10 @@ void check_kinds(const NnaoFrame& frame) {
   check_known("debug.show", frame.show, NOOK_NNAO_VIEW_NORMALS);
   if (frame.depth_texture == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.depth_texture is 0; give the name of a texture with depth");
+                  "frame.depth_texture is 0; set it to the name of your depth texture");
   if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE && frame.gbuffer_ao_texture == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.gbuffer_ao_texture is 0; frame.gbuffer_ao %d needs the name of a texture",
+                  "frame.gbuffer_ao_texture is 0, but frame.gbuffer_ao %d needs the name of a texture",
                   frame.gbuffer_ao);
   if (frame.target == NOOK_TARGET_TEXTURE && frame.target_name == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -78,14 +78,15 @@ void check_kinds(const NnaoFrame& frame) {
   if (frame.target == NOOK_TARGET_OWN &&
       (frame.blend != NOOK_BLEND_WRITE || frame.show == NOOK_NNAO_VIEW_NORMALS))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "%s %d needs a target of the host; set frame.target and frame.target_name",
+                  "%s %d does not work with NOOK_TARGET_OWN; set frame.target and frame.target_name",
                   frame.blend != NOOK_BLEND_WRITE ? "frame.blend" : "debug.show",
                   frame.blend != NOOK_BLEND_WRITE ? frame.blend : frame.show);
 }
 
 void check_normals(const NnaoFrame& frame) {
   if (frame.normal_texture == 0) return;
-  check_fits("frame.normal_scale", frame.normal_scale, frame.normal_scale != 0, "a number other than 0");
+  check_fits("frame.normal_scale", frame.normal_scale, frame.normal_scale != 0,
+             "a finite number other than 0");
   check_fits("frame.normal_bias", frame.normal_bias, true, "a number");
   nnao::check_normal_matrix(frame.normal_matrix);
 }
@@ -143,7 +144,7 @@ void check_frame(const NnaoFrame& frame, const nook_nnao_desc& pass) {
   if (frame.target == NOOK_TARGET_FRAMEBUFFER)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "frame.target %d does not go with desc.views %d; use NOOK_TARGET_TEXTURE with a texture array",
+        "frame.target %d cannot be combined with desc.views %d; use NOOK_TARGET_TEXTURE with a texture array",
         frame.target, pass.views);
   for (int layer = 0; layer < pass.views; ++layer) {
     try {

@@ -13,7 +13,8 @@ void clear_refusal(const Device& device) {
     const GLenum error = device.gl.GetError();
     if (error == GL_NO_ERROR) return;
     if (error != GL_INVALID_OPERATION)
-      device.context.log(NOOK_LOG_WARNING, "nook_nnao: the host left the OpenGL error 0x%04x", error);
+      device.context.log(NOOK_LOG_WARNING, "nook_nnao: the OpenGL error 0x%04x was pending before the call",
+                         error);
   }
 }
 
@@ -127,7 +128,7 @@ BoundTexture bind_checked(const Device& device, const HostImages& images, ImageF
   gl.GetTexParameteriv(kind.target, GL_TEXTURE_BASE_LEVEL, &base_level);
   if (base_level != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "%s begins at another level (its GL_TEXTURE_BASE_LEVEL is %d, need 0)", field, base_level);
+                  "%s does not begin at level 0 (its GL_TEXTURE_BASE_LEVEL is %d)", field, base_level);
   if (!gl.can.texture_sizes) return texture;
   const GLint width = texture.level(GL_TEXTURE_WIDTH), height = texture.level(GL_TEXTURE_HEIGHT);
   if (width != images.width || height != images.height)
@@ -170,8 +171,8 @@ void check_shows_depth(const BoundTexture& texture) {
   gl.GetTexParameteriv(texture.target, GL_DEPTH_STENCIL_TEXTURE_MODE, &mode);
   if (mode != GL_DEPTH_COMPONENT)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "frame.depth_texture shows its stencil (GL_DEPTH_STENCIL_TEXTURE_MODE is 0x%04x, need "
-                  "GL_DEPTH_COMPONENT)",
+                  "frame.depth_texture returns its stencil instead of its depth "
+                  "(GL_DEPTH_STENCIL_TEXTURE_MODE is 0x%04x, need GL_DEPTH_COMPONENT)",
                   static_cast<unsigned>(mode));
 }
 
@@ -262,7 +263,7 @@ void check_framebuffer(const Device& device, const HostImages& images) {
   if (buffer == GL_NONE)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "frame.target_name draws into nothing (its first draw buffer is GL_NONE); call glDrawBuffer");
+        "frame.target_name has no draw buffer (its first draw buffer is GL_NONE); set one with glDrawBuffer");
   if (images.target_name == 0) return;
   check_apart(images, attached_texture(gl, static_cast<GLenum>(buffer)), "attached to frame.target_name");
   // The depth attachment of the target must not be the depth texture: reading a texture while it is attached

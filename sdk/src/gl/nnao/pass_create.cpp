@@ -26,8 +26,8 @@ namespace {
                   "NOOK_NNAO_PATH_AUTOMATIC",
                   api_name(gl), major, minor, gl.profile == Profile::desktop ? "4.3" : "3.1");
   throw Failure(NOOK_ERROR_UNSUPPORTED,
-                "debug.path needs compute shaders (got no \"glBindImageTexture\" from get_proc on %s "
-                "%d.%d, need it); pass the context's own loader, or use NOOK_NNAO_PATH_AUTOMATIC",
+                "debug.path needs compute shaders (get_proc did not return \"glBindImageTexture\" on %s "
+                "%d.%d); pass the context's own loader, or use NOOK_NNAO_PATH_AUTOMATIC",
                 api_name(gl), major, minor);
 }
 

@@ -29,8 +29,8 @@ void SurfaceWatch::report(const Device& device) const {
   device.context.log(
       NOOK_LOG_WARNING,
       "nook_gl: an earlier frame showed no surface: all of frame.depth_texture %u is sky or beyond the far "
-      "plane (with frame.depth_kind %d and frame.clip_space %d); check that depth was drawn before the call, "
-      "and the kind, reversed depth, frame.clip_space and frame.sky_depth",
+      "plane (with frame.depth_kind %d and frame.clip_space %d); check that depth was drawn before the call. "
+      "Also check frame.depth_kind, reversed depth, frame.clip_space and frame.sky_depth",
       depth_texture_, depth_kind_, clip_space_);
 }
 

@@ -55,13 +55,11 @@ CapturePlan plan_of(const CaptureTargets& targets, const CaptureSettings& settin
 
 void check_plan(const Device& device, const CapturePlan& plan) {
   if (plan.texels() > device.max_texels)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "the probes are too many for a texture buffer of this OpenGL (the sums of %llu probes and "
-        "of faces of %u texels take %llu texels, need at most %u); split the grid or make the faces "
-        "smaller",
-        static_cast<unsigned long long>(plan.probes), plan.face_size_px,
-        static_cast<unsigned long long>(plan.texels()), device.max_texels);
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the capture is too large for a texture buffer of this OpenGL (%llu probes with faces of "
+                  "%u texels take %llu texels, need at most %u); split the grid or make the faces smaller",
+                  static_cast<unsigned long long>(plan.probes), plan.face_size_px,
+                  static_cast<unsigned long long>(plan.texels()), device.max_texels);
 }
 
 Buffer working_buffer(Device& device, const char* label, std::uint64_t texels) {
@@ -157,8 +155,8 @@ void ProbeCapture::check_targets() const {
       (!targets_.grid || targets_.grid->grid() == grid_);
   if (!same)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.probe or desc.grid was updated with other functions or another grid; create another "
-                  "capture for it");
+                  "desc.probe or desc.grid was updated with other functions or another grid after the "
+                  "capture was created; create a new capture");
 }
 
 void ProbeCapture::add(std::size_t probe, GLuint cube_map, bool restart) {

@@ -21,9 +21,10 @@ GLint parameter(const Functions& gl, GLenum name) {
 void check_levels(const Functions& gl, const CubeMap& cube) {
   const GLint base = parameter(gl, GL_TEXTURE_BASE_LEVEL), last = parameter(gl, GL_TEXTURE_MAX_LEVEL);
   if (base != 0 || last < GLint(cube.level))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "cube_map %u has other levels (got %d to %d, need 0 to desc.level, %u, or more)", cube.name,
-                  base, last, cube.level);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "cube_map %u lacks a level (got levels %d to %d, need levels 0 to %u, which is desc.level, or more)",
+        cube.name, base, last, cube.level);
 }
 
 void check_face(const Functions& gl, const CubeMap& cube, GLenum face) {

@@ -54,8 +54,8 @@ void ProbeTexture::update(const probe::Probes& probes) {
   if (gloss != probes.has_gloss())
     device_.context.log(
         NOOK_LOG_WARNING,
-        "nook_gl: the grid's amplitudes for gloss do not fit a texture buffer of this OpenGL (%llu "
-        "texels, at most %u); glossy reflection reads the light's, which may be black",
+        "nook_gl: the grid's gloss amplitudes do not fit into a texture buffer of this OpenGL (%llu texels, "
+        "at most %u); glossy reflections use the amplitudes of the light instead, and may have black patches",
         static_cast<unsigned long long>(probe_texel_count(probes, true)), device_.max_texels);
   const Vector<float> texels = probe_texels(probes, gloss, device_.memory);
   table_.replace(device_, GL_RGBA32F, count, texels.data(), "nook: probe");

@@ -14,11 +14,10 @@ namespace nook::gl {
 namespace {
 
 [[noreturn]] void refuse_casters(const Device& device, std::uint32_t casters, std::uint32_t bodies) {
-  throw Failure(
-      NOOK_ERROR_INVALID_ARGUMENT,
-      "the frame has more casters in view than this OpenGL has room for (got %u in %u bodies, need at most "
-      "%u of both); leave out bodies that are far from the view",
-      casters, bodies, device.max_texels / NOOK_BODY_TEXELS);
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                "the frame has more casters in view than this OpenGL has room for (got %u casters in %u "
+                "bodies, need at most %u of each); leave out bodies that are far from the view",
+                casters, bodies, device.max_texels / NOOK_BODY_TEXELS);
 }
 
 world::TileGrid grid_of(const WorldFrame& frame, std::uint32_t tile_px) {
@@ -73,7 +72,7 @@ void FrameCasters::reserve(Device& device, std::uint32_t casters) {
   const std::uint64_t texels = std::uint64_t{casters} * NOOK_CASTER_TEXELS;
   if (texels > device.max_texels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "desc.casters is larger than this OpenGL's tables (got %u, need at most %llu)", casters,
+                  "desc.casters is too large for this OpenGL (got %u, need at most %llu)", casters,
                   static_cast<unsigned long long>(device.max_texels / NOOK_CASTER_TEXELS));
   table_.reserve(device, GL_RGBA32F, texels, "nook: world casters");
 }
