@@ -33,8 +33,8 @@ const ImportedCharacter& get(nook_bake_character character) {
 
 void need_index(const char* name, std::size_t index, std::size_t count) {
   if (index >= count)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %zu, there are %zu)", name, index,
-                  count);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is out of range (got %zu, need less than %zu)", name,
+                  index, count);
 }
 
 // A program that opens a pipe without a writer would wait for ever, without a word.
@@ -46,8 +46,8 @@ void require_regular_file(const std::filesystem::path& file) {
       std::filesystem::is_regular_file(status))
     return;
   throw Failure(NOOK_ERROR_BAD_FILE,
-                "this is not a regular file but a pipe, a socket or a device; read it yourself and give "
-                "desc.bytes");
+                "this is not a regular file but a pipe, a socket or a device; read it yourself and pass its "
+                "contents as desc.bytes");
 }
 
 ImportedCharacter import_file(const char* path, const ImportOptions& options) {
@@ -86,9 +86,9 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc, const MeshSele
                   "desc has %s of desc.path, desc.bytes and arrays such as desc.positions; give exactly one",
                   sources == 0 ? "none" : "more than one");
   if (has_arrays && !(meshes.only.empty() && meshes.without.empty()))
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "desc.meshes and desc.without choose meshes of a file, but desc has arrays; leave them out");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.meshes and desc.without choose meshes of a file, but desc contains arrays; leave "
+                  "desc.meshes and desc.without NULL");
   check_switch("desc.allow_outside_files", desc.allow_outside_files);
   const LinkedFiles linked = desc.allow_outside_files ? LinkedFiles::anywhere : LinkedFiles::folder;
   if (desc.path) return import_file(desc.path, {linked, meshes});
@@ -287,7 +287,7 @@ nook_result nook_bake_character_sample_clip(nook_bake_character character, uint3
     need_index("clip", clip, c.clips.size());
     need_count("bone_count", bone_count, c.mesh.bones.size());
     if (!std::isfinite(time_s))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time_s is not finite; give seconds");
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "time_s is not finite; pass a time in seconds");
     write_pose(sample_clip(c, clip, time_s), bones_3x4);
   });
 }

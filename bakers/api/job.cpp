@@ -19,11 +19,11 @@ namespace {
 
 [[noreturn]] void refuse_type(std::uint32_t type) {
   switch (type) {
-#define NOOK_REFUSE_DESCRIPTOR(name, struct_type)                                                        \
-  case NOOK_DESC_##name:                                                                                 \
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc is a " #struct_type                                 \
-                                               ", which starts no bake; pass the descriptor of a bake, " \
-                                               "such as nook_bake_character_desc");
+#define NOOK_REFUSE_DESCRIPTOR(name, struct_type)                                                          \
+  case NOOK_DESC_##name:                                                                                   \
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc is a " #struct_type                                   \
+                                               ", which does not start a bake; pass a descriptor such as " \
+                                               "nook_bake_character_desc");
     NOOK_BAKE_DESCRIPTORS(NOOK_REFUSE_DESCRIPTOR)
 #undef NOOK_REFUSE_DESCRIPTOR
     default:

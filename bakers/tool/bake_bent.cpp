@@ -68,7 +68,7 @@ void add_bake_bent(Command bake_command) {
       .capture_default_str();
   command
       .add_option("--samples-per-clip", o.task.samples_per_clip,
-                  "number of poses from each clip; only clips to which the model was fitted count")
+                  "number of poses from each clip that the model was fitted to")
       .check(in_range(1, 100000))
       .capture_default_str();
   command.add_option("--rays", o.task.rays, "rays per vertex and pose")

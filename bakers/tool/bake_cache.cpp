@@ -124,7 +124,7 @@ std::optional<BakeOutput> BakeCache::find(const std::string& key, bool quiet) co
   if (!model_bytes || !entry_bytes) return std::nullopt;
   std::optional<BakeOutput> output = checked(*entry_bytes, std::move(*model_bytes));
   if (!output) {
-    say(model.string() + ": does not fit its checksum in the cache; it is baked again and replaced");
+    say(model.string() + ": does not match its checksum in the cache; it is baked again and replaced");
     return std::nullopt;
   }
   note_use(model);

@@ -88,8 +88,8 @@ bake::CalibrationPoses recorded_poses(const Options& options, const bake::Skinne
         read_pose_records(read_any_file(options.calibration), hash_of_bone_names(names), mesh.bones.size());
     if (recorded.poses.empty())
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "none of its %zu poses is of this character (other bones, or other names of bones); "
-                    "record instances of a model that was baked from this file",
+                    "none of its %zu poses belongs to this character (the number or the names of the bones "
+                    "differ); record instances of a model that was baked from this file",
                     recorded.of_others);
     return bake::CalibrationPoses{std::move(recorded.poses)};
   });
@@ -249,7 +249,7 @@ void add_bake_character(Command bake) {
                     "scales; of the other options, only --rays and --seed have an effect");
   command
       .add_option("--time-limit", o.time_limit_s,
-                  "end the fit after this many seconds; two such bakes can differ in their bits")
+                  "end the fit after this many seconds; the results of two such bakes can differ slightly")
       .check(positive_number());
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -69,8 +69,8 @@ void run(Options o) {
 void add_bake_clips(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "clips",
-      "bake ray-traced AO and poses of a character's clips.\nThe file is a small table over the frames. A "
-      "crowd that is drawn from baked animation needs no bones on the CPU with it.");
+      "bake ray-traced AO and poses of a character's clips.\nThe file is a small table of the frames. With "
+      "it, a crowd that is drawn from baked animation needs no bones on the CPU.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("input", o.input, "the character, a .glb or .gltf file").required();

@@ -186,7 +186,7 @@ PbrMaps read_relief(const Options& o) {
 void set_heights(const Options& o, const PbrMaps& image, RawMaterial& raw) {
   if (raw.width != raw.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "--relief takes an image for a material of as many columns as rows, this one has %u x %u",
+                  "--relief with an image needs a material with as many columns as rows (got %u x %u)",
                   raw.width, raw.height);
   const PbrMaps maps = image.side == raw.width ? image : heights_at(image, raw.width);
   const std::vector<float> z =
@@ -199,7 +199,8 @@ void set_heights(const Options& o, const PbrMaps& image, RawMaterial& raw) {
 // Warns that decoding without a view map is more expensive than the settings of K-CTA suggest.
 void note_missing_map(const Options& o, const CompressionSettings& settings) {
   if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
-    std::fprintf(stderr, "nook: without a view map decoding mixes up to %u clusters a pixel instead of %u\n",
+    std::fprintf(stderr,
+                 "nook: without a view map, decoding mixes up to %u clusters per pixel instead of %u\n",
                  std::min(settings.cluster_count(), 3 * settings.mixture), settings.mixture);
 }
 
@@ -242,7 +243,7 @@ Json without_words(Json row) {
 void tell_verdict(const Options& o, const Verdict& verdict) {
   if (o.strict && verdict.grade == Grade::bad)
     throw ToolError(exit_bad_result,
-                    "bake material: " + verdict.words + "; --strict writes no such material");
+                    "bake material: " + verdict.words + "; --strict does not write such a material");
   if (!o.common.quiet) std::fprintf(stderr, "nook: %s\n", verdict.words.c_str());
 }
 
@@ -315,8 +316,8 @@ void run(Options& o) {
     throw ToolError(exit_bad_arguments, "bake material: one of --meso, --pbr, --btf and --raw is needed");
   if (o.compression.settings.relief == ReliefSource::known && o.relief.empty() && !is_traced(o))
     throw ToolError(exit_bad_arguments,
-                    "bake material: --relief known needs --meso or --pbr, whose heights are known; give an "
-                    "image of the heights of --btf or --raw");
+                    "bake material: --relief known needs --meso or --pbr, whose heights are known; for --btf "
+                    "or --raw, give an image of the heights");
   if (is_mesh(o.meso) && !std::filesystem::exists(o.meso)) meso_parameters(o.meso);
   if (!o.relief.empty() && !std::filesystem::exists(o.relief))
     throw ToolError(exit_bad_input, "bake material: --relief: there is no file " + o.relief.string() +
@@ -385,10 +386,9 @@ void add_bake_material(Command bake) {
       .type_name("NAME");
   command.add_input("--raw", o.raw, "source: a raw material that --keep-raw wrote");
   add_bake_options(command, o.baking);
-  command.add_flag(
-      "--strict", o.strict,
-      "fail with exit code 4 and write nothing if the material judges itself bad: below 12 dB in views "
-      "and lights that were held out");
+  command.add_flag("--strict", o.strict,
+                   "fail with exit code 4 and write nothing if the quality is bad: below 12 dB in views and "
+                   "lights that were held out");
   command.add_option("--keep-raw", o.keep_raw,
                      "also write the uncompressed material to this file, for `evaluate material`");
   command.add_option("--images", o.images,

@@ -20,7 +20,8 @@ void run(const BakeProbeOptions& options) {
                     "bake probe: a scene needs both --grid and --light, a map needs neither");
   if (options.walls && (!is_grid || options.probe.basis != "harmonics" || options.probe.order != 2 ||
                         options.probe.hemisphere))
-    throw ToolError(exit_bad_arguments, "--walls: needs a grid of --basis harmonics --order 2 on the sphere");
+    throw ToolError(exit_bad_arguments,
+                    "--walls: needs a grid with --basis harmonics and --order 2, without --hemisphere");
   BakeCommand command{
       options.common,
       options.baking,
@@ -87,7 +88,7 @@ void add_bake_probe(Command bake_command) {
   command
       .add_option(
           "--direct", o.direct,
-          "for a scene, which direct light of the map probes store: none, the sky without suns, or all. "
+          "for a scene: which direct light of the map the probes store: none, the sky without suns, or all. "
           "Bounced light is always stored. The report lists the suns that your engine then has to draw")
       .check(one_of(bake::direct_names()))
       .capture_default_str();

@@ -134,10 +134,10 @@ bake::BakeIdentity identity_of(const BakeProbeOptions& options, const GridBakeSe
 PreparedBake prepare_probe_grid(const BakeProbeOptions& options) {
   if (options.preview_every_s > 0 && !options.baking.prints_key &&
       !platform::OutputFile(options.baking.output).is_regular())
-    throw ToolError(exit_bad_arguments,
-                    "--preview-every: -o is a device or a pipe, where no later version can replace "
-                    "a preview (got " +
-                        options.baking.output.string() + "); give a file");
+    throw ToolError(
+        exit_bad_arguments,
+        "--preview-every: -o is a device or a pipe, where a preview cannot be replaced later (got " +
+            options.baking.output.string() + "); give a file");
   // The scene is read again for its hash, because decoded textures do not store the bytes of their files.
   const std::string scene_hash = naming_file(options.input, [&] {
     return bake::content_hash(bake::import_static_scene(

@@ -79,8 +79,9 @@ void add_bake_synthesis(Command bake_command) {
       .required();
   add_bake_options(command, o.baking);
   command
-      .add_option("--size", o.settings.side,
-                  "texels along a side of the plane, a multiple of 64; the plane repeats after them")
+      .add_option(
+          "--size", o.settings.side,
+          "texels along a side of the plane, a multiple of 64; after this many texels, the plane repeats")
       .check(in_range(bake::synthesis::side_step, nook::synthesis::max_side))
       .capture_default_str();
   command.add_flag("!--no-tile", o.is_tiling,

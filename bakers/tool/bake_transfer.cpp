@@ -69,7 +69,7 @@ PreparedBake prepare(const Options& o) {
 void run(const Options& o) {
   if ((o.form == "paper") != !o.material.empty())
     throw ToolError(exit_bad_arguments, o.form == "paper" ? "--form paper needs --material"
-                                                          : "--material is of --form paper only");
+                                                          : "--material works only with --form paper");
   CommandFiles files{{{"the input", o.input}}, {}, {}};
   if (!o.material.empty()) files.inputs.push_back({"--material", o.material});
   if (!o.votf.empty()) files.inputs.push_back({"--votf", o.votf});
@@ -102,8 +102,9 @@ void add_bake_transfer(Command bake_command) {
                   "number of bounces between parts of the shape; each adds 18 bytes per vertex")
       .check(in_range(0u, transfer::max_bounces))
       .capture_default_str();
-  command.add_input("--votf", o.votf,
-                    "the .nook file of the material on the shape, if light should fall through its holes");
+  command.add_input(
+      "--votf", o.votf,
+      "the .nook file of the material on the shape, if light should fall through the material's holes");
   command
       .add_option("--tiles", o.settings.tiles, "tiles of the --votf material per unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))

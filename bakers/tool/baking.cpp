@@ -82,11 +82,10 @@ std::string rule_of(const BakeCommand& command) {
   const std::vector<std::filesystem::path> read = files_read(command.files, command.reads_images);
   const std::string cut = name_that_ninja_cuts(output, read);
   if (!cut.empty())
-    std::fprintf(
-        stderr,
-        "nook: --depfile: Ninja 1.11 cuts the name %s off at a quote or sign, and would bake every time; "
-        "rename the file, or use nook plan\n",
-        platform::printable(cut).c_str());
+    std::fprintf(stderr,
+                 "nook: --depfile: Ninja 1.11 cuts off the name %s at a quote or another special character, "
+                 "and would bake every time; rename the file, or use nook plan\n",
+                 platform::printable(cut).c_str());
   return depfile_text(output, read);
 }
 
@@ -99,10 +98,10 @@ void add_bake_options(Command command, BakeOptions& options) {
                    "read the inputs, print the key of the bake and end: equal keys mean equal results "
                    "(docs/guide/pipeline.md)");
   command.add_option("--depfile", options.depfile,
-                     "write the names of all files that the bake reads as a rule for Make and Ninja");
+                     "write a rule for Make and Ninja that names all files that the bake reads");
   command.add_option("--cache", options.cache,
-                     "a folder that keeps results by their keys: a bake whose key is there is copied; "
-                     "default NOOK_CACHE, if it is set");
+                     "a folder that stores results by their keys: a result that it contains is copied "
+                     "instead of baked; default NOOK_CACHE, if it is set");
   command
       .add_option("--isa", options.isa,
                   "the instruction set to bake with, so that different processors give the same bytes: "

@@ -46,8 +46,8 @@ fs::path find_program(const std::string& name) {
     begin = end + 1;
   }
   throw ToolError(exit_other, "build: there is no program " + name +
-                                  " on the PATH; install it (Debian: apt install ninja-build), or run "
-                                  "tasks.txt of nook plan by other means");
+                                  " on the PATH; install it (Debian: apt install ninja-build), or run the "
+                                  "lines of tasks.txt from nook plan in another way");
 }
 
 // Shows the output of Ninja. Its counts become one progress line. Everything else is shown unchanged.
@@ -148,8 +148,8 @@ void run(const Options& options) {
 void add_build(Command tool) {
   const Command command = tool.add_subcommand(
       "build",
-      "bake what changed among many assets.\nMakes the plan of nook plan and runs it with Ninja. One failure "
-      "does not stop the others; the exit code is 1 then.");
+      "bake the assets of a project that have changed.\nMakes a plan like nook plan, and runs it with Ninja. "
+      "If a bake fails, the others still run, and the exit code is 1.");
   const auto options = std::make_shared<Options>();
   plan::add_plan_options(command, options->plan);
   command.add_option("-j,--jobs", options->jobs, "number of bakes at a time; 0: one per core")

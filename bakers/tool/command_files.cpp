@@ -205,10 +205,10 @@ void require_not_among_pictures(const KnownFile& file, const fs::path& images) {
   const fs::path target = platform::followed(file.path);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");
   if (fs::equivalent(folder, images, error))
-    throw ToolError(exit_bad_arguments, file.option +
-                                            " lies in the folder of --images, where a picture could replace "
-                                            "it (got " +
-                                            file.path.string() + "); choose another folder for --images");
+    throw ToolError(exit_bad_arguments,
+                    file.option +
+                        " lies in the folder of --images, where a picture could overwrite it (got " +
+                        file.path.string() + "); choose another folder for --images");
 }
 
 }  // namespace

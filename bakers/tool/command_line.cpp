@@ -145,9 +145,9 @@ std::string without_copies(std::string text, const InputCopies& copies) {
 // a stream.
 std::string fault_of_path(const std::string& path) {
   if (path.empty()) return "the name of a file is empty";
-  return path == "-"
-             ? "\"-\" is not a file; /dev/stdin and /dev/stdout are the streams, ./- a file of this name"
-             : "";
+  return path == "-" ? "\"-\" is not a file; use /dev/stdin or /dev/stdout for the streams, and ./- for a "
+                       "file with this name"
+                     : "";
 }
 
 // Refuses what a conversion to an unsigned type would change without a word: it takes -1 as the largest number,

@@ -29,8 +29,8 @@ void add_import_options(Command command, bake::ImportOptions& options) {
       .type_name("NAME");
   command
       .add_option("--without", options.meshes.without,
-                  "leave out the meshes of this name, matched as in --mesh. Commands that read "
-                  "a baked character or transfer take the choice of its bake, unless you give another")
+                  "leave out the meshes of this name, matched as in --mesh. Commands that read a baked "
+                  "character or transfer read the same meshes as its bake, unless you choose others")
       .one_each()
       .type_name("NAME");
 }

@@ -59,8 +59,8 @@ void add_compression_options(Command command, CompressionOptions& o) {
       .capture_default_str();
   command
       .add_option("--votf-refits", s.votf_refits,
-                  "number of further fits of the visibility (VOTF), which aim at the right side of the "
-                  "threshold for each value and no longer at the value itself")
+                  "number of further fits of the visibility (VOTF), which only try to bring each value to "
+                  "the right side of the threshold")
       .check(in_range(0, 16))
       .capture_default_str();
   command

@@ -14,7 +14,7 @@ namespace {
 std::string escaped(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (name.find_first_of("\n\r") != std::string::npos)
-    throw ToolError(exit_bad_arguments, "--depfile: a name with a line break does not fit into a rule (got " +
+    throw ToolError(exit_bad_arguments, "--depfile: a rule cannot contain a name with a line break (got " +
                                             name + "); rename the file");
   std::string text;
   std::size_t backslashes = 0;

@@ -81,7 +81,7 @@ void add_evaluate_casters(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "casters",
       "measure how a neighbour darkens a body, from 0.3 to 10 m away.\nPrints the mean darkening by ray "
-      "tracing and by each form, and the error, over several directions and poses.");
+      "tracing and by each form of casters, and the error, over several directions and poses.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);

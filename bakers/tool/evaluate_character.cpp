@@ -37,7 +37,9 @@ struct Options {
 std::optional<bake::Recipe> known_recipe(const BakedCharacter& baked, const Options& options) {
   const auto recipe = naming_file(options.files.model, [&] { return stored_recipe(baked); });
   if (recipe && bake::reads_other_content(*recipe, baked.character) && !options.common.quiet)
-    std::fprintf(stderr, "%s: the character file has changed since the bake; the numbers mix old and new\n",
+    std::fprintf(stderr,
+                 "%s: the character file has changed since the bake, so the results compare the old model "
+                 "with the new file\n",
                  platform::printable(options.files.model.string()).c_str());
   return recipe;
 }
@@ -117,8 +119,8 @@ void add_evaluate_character(Command evaluate_command, std::span<const CharacterP
   command
       .add_option_function(
           "--poses", [&o](const std::string& name) { o.poses.training = name == "training"; },
-          "clips (default), or training for the poses that the model was fitted to. Without --clips, clips "
-          "takes those that were not fitted, or all if all were fitted")
+          "clips (default), or training for the poses that the model was fitted to. Without --clips, `clips` "
+          "measures the clips that the model was not fitted to, or all clips if it was fitted to all")
       .check(one_of({"clips", "training"}))
       .type_name("NAME");
   command.add_option("--clips", o.poses.clips, "measure only these clips, separated by commas")

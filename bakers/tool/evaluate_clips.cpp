@@ -98,8 +98,9 @@ void add_evaluate_clips(Command evaluate_command) {
       .check(in_range(1, 65536))
       .capture_default_str();
   command
-      .add_option("--max-poses", o.study.max_poses,
-                  "number of poses at the frames, and half-way between them, picked evenly")
+      .add_option(
+          "--max-poses", o.study.max_poses,
+          "number of poses to measure at the frames, and again half-way between frames, picked evenly")
       .check(in_range(1, 10000000))
       .capture_default_str();
   command.add_option("--pairs", o.study.max_pairs, "number of poses with a neighbour at each distance")

@@ -50,7 +50,7 @@ Json evaluate(const Options& options) {
   const std::optional<bake::Recipe> recipe = stored_recipe(baked);
   if (!recipe)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the model holds no recipe of its training poses; bake it again");
+                  "the model does not store how its training poses were made; bake it again");
   PoseChoice fitted;
   fitted.training = true;
   fitted.most = options.training_poses;

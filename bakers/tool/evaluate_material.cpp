@@ -138,7 +138,7 @@ void add_evaluate_material(Command evaluate_command, std::shared_ptr<MaterialPee
   command.add_input("raw", o.raw, "the raw material, which `bake material --keep-raw` wrote").required();
   command.add_input("material", o.material, "the compressed material, a .nook file").required();
   command.add_input("--unseen", o.unseen,
-                    "a raw material with other views, and other lights if they differ, to measure the error "
+                    "a raw material with other views, and possibly other lights, to measure the error "
                     "between the stored samples");
   command.add_flag("--jumps", o.jumps,
                    "measure how much the picture jumps as the view moves by 0.1 degrees, with and without "

@@ -111,7 +111,8 @@ Json evaluate_frames(platform::Context& context, const FrameWords& words, const 
       const std::vector<FrameRow> drawn =
           compare_frame(replay, recording, words.methods, words.network, show, methods);
       if (drawn.empty() || drawn.back().method == recorded_name)
-        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: none of them can replay this frame");
+        throw ToolError(exit_bad_arguments,
+                        "evaluate nnao: --methods: none of the methods can draw this frame");
       for (const Json& row : frame_rows(name, recording, drawn)) rows.push_back(row);
       if (!words.images.empty()) write_pictures(words.images, name, replay.view(), drawn);
     });

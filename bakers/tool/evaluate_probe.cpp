@@ -127,7 +127,10 @@ Json evaluate(const Options& options, const ProbePeers* peers) {
   for (const std::filesystem::path& path : options.files) {
     if (path.extension() == ".nook") {
       if (!map)
-        throw ToolError(exit_bad_arguments, path.string() + ": comes before its map; give the map first");
+        throw ToolError(
+            exit_bad_arguments,
+            path.string() +
+                ": stands before its map; give each map before the files that were baked from it");
       report["rows"].push_back(file_row(path, name, *map));
       continue;
     }
@@ -172,7 +175,8 @@ void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> pe
   command.add_input("--light", o.grid.light, "for grids: the environment map around the scene");
   command
       .add_option("--points", o.grid.points,
-                  "for grids: number of random points on surfaces; as many lie in the open")
+                  "for grids: number of random points on surfaces; the same number of points is measured in "
+                  "open space")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
   command.add_option("--paths", o.grid.paths, "for grids: paths traced from each point")
@@ -182,8 +186,8 @@ void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> pe
                      "for grids: largest number of bounces; default unlimited");
   command
       .add_option("--direct", o.grid.direct,
-                  "for grids, which direct light of the map to compare: none, the sky without suns, or all; "
-                  "default as the grid was baked")
+                  "for grids: which direct light of the map to compare: none, the sky without suns, or all; "
+                  "default as in the bake of the grid")
       .check(one_of(bake::direct_names()));
   add_import_options(command, o.grid.reading);
   command.add_flag("--no-textures", o.grid.no_textures,

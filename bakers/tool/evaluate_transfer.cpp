@@ -39,10 +39,10 @@ struct Options {
 
 void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer::Transfer& baked) {
   if (!measure::is_baked_mesh(mesh, baked))
-    throw ToolError(exit_bad_input,
-                    o.transfer.string() + ": was baked from another mesh than " + o.mesh.string() +
-                        "; bake the transfer again, or choose the meshes of its bake (--mesh, "
-                        "--without)");
+    throw ToolError(
+        exit_bad_input,
+        o.transfer.string() + ": was baked from another mesh than " + o.mesh.string() +
+            "; bake the transfer again, or choose the same meshes as its bake (--mesh, --without)");
 }
 
 // The light transport of the truth. It is the same as in the file, with the material on the shape.
@@ -56,8 +56,8 @@ struct TruthOf {
     name += ", holes of the VOTF";
     if (baked.votf_hash != 0 && baked.votf_hash != tables.votf_hash && !o.common.quiet)
       std::fprintf(stderr,
-                   "nook: %s: light fell through the holes of another material than %s when it was baked; "
-                   "the rows hold the error that this makes\n",
+                   "nook: %s: was baked with the holes of another material than %s; the results include the "
+                   "error that this causes\n",
                    o.transfer.c_str(), o.material.c_str());
     if (tables.visibility == material::VisibilityForm::none) return;
     holes = bake::transfer::make_hole_table(tables);

@@ -58,8 +58,9 @@ std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
 void require_rooms(const Options& options) {
   const bool has_rooms = options.composite || (!options.lights.empty() && !options.images.empty());
   if (!options.scenes.empty() && !has_rooms)
-    throw ToolError(exit_bad_arguments,
-                    "--scene is a room to measure in; add --composite, or --light with --images");
+    throw ToolError(
+        exit_bad_arguments,
+        "--scene names a room, which only --composite, or --light with --images, measures; add one of them");
   if (options.scene_metres.size() > options.scenes.size())
     throw ToolError(exit_bad_arguments, "--scene-metres has " + std::to_string(options.scene_metres.size()) +
                                             " values for " + std::to_string(options.scenes.size()) +
@@ -207,8 +208,8 @@ void add_evaluate_world(Command evaluate_command) {
       .needs(scene);
   command
       .add_option("--scene-mesh", o.scene_meshes.only,
-                  "read only the meshes of this name from each --scene, matched as in --mesh, which chooses "
-                  "meshes of the character")
+                  "read only the meshes of this name from each --scene, matched as in --mesh; --mesh itself "
+                  "chooses meshes of the character")
       .one_each()
       .needs(scene)
       .type_name("NAME");

@@ -87,7 +87,7 @@ void require_rig_options(const Options& options, bool gltf) {
     throw ToolError(exit_bad_arguments, "inspect: --rig needs the rig of a .glb or .gltf file (got " +
                                             options.input.string() + ")");
   if (!options.shows_rig && !options.images.empty())
-    throw ToolError(exit_bad_arguments, "inspect: --images draws a rig; add --rig");
+    throw ToolError(exit_bad_arguments, "inspect: --images draws only a rig; add --rig");
 }
 
 void run(const Options& options) {

@@ -45,7 +45,8 @@ void add_commands(CLI::App& tool) {
   CLI::App* write = tool.add_subcommand("export", "write the contents of .nook files for other engines")
                         ->require_subcommand(1);
   nook::tool::add_export_casters(nook::tool::Command(*write));
-  CLI::App* cache = tool.add_subcommand("cache", "tidy the folder of bake --cache")->require_subcommand(1);
+  CLI::App* cache = tool.add_subcommand("cache", "remove old results from the folder of bake --cache")
+                        ->require_subcommand(1);
   nook::tool::add_cache_prune(nook::tool::Command(*cache));
   nook::tool::add_plan(nook::tool::Command(tool));
   nook::tool::add_build(nook::tool::Command(tool));

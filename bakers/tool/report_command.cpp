@@ -49,7 +49,7 @@ std::string end_of(const std::filesystem::path& file) {
 
 void take_once(std::filesystem::path& place, const std::filesystem::path& file, const char* what) {
   if (!place.empty())
-    throw ToolError(exit_bad_arguments, file.string() + ": is the second " + what + "; give one");
+    throw ToolError(exit_bad_arguments, file.string() + ": is a second " + what + "; give one");
   place = file;
 }
 
@@ -67,7 +67,7 @@ ReportSources sort_sources(const std::vector<std::filesystem::path>& files) {
       sources.nooks.push_back(file);
     else
       throw ToolError(exit_bad_arguments,
-                      file.string() + ": a source is a .glb, .gltf, .hdr, .exr, .nook or .raw file");
+                      file.string() + ": is not a source; give .glb, .gltf, .hdr, .exr, .nook or .raw files");
   }
   return sources;
 }
@@ -224,7 +224,7 @@ void run(const Options& options) {
 
 void run_all(const Options& options) {
   if (!options.file.empty())
-    throw ToolError(exit_bad_arguments, "report: --all takes a folder and no file (got " +
+    throw ToolError(exit_bad_arguments, "report: --all reads a folder and does not take a file (got " +
                                             options.file.string() + "); give one of them");
   ReportAllOptions all = options.all;
   all.output = options.output;

@@ -103,8 +103,8 @@ int attempt(const Options& options, const Log& log, const std::string& command, 
 
 void run(const Options& options) {
   if (options.words.front() == "task" || options.words.front() == "build")
-    throw ToolError(exit_bad_arguments, "task: runs one command, such as bake (got " + options.words.front() +
-                                            "); use its own retries for others");
+    throw ToolError(exit_bad_arguments, "task: cannot run a command that runs other commands (got " +
+                                            options.words.front() + "); give a command such as bake");
   const Log log(options.log);
   std::string command = "nook";
   for (const std::string& word : options.words) command += " " + plan::quoted(word);
@@ -134,7 +134,7 @@ void add_task(Command tool) {
   command.add_option(
       "--log", options->log,
       "write all that the command prints into this file, line by line; an older log is replaced");
-  command.add_option("--retries", options->retries, "most repetitions of a command that fails")
+  command.add_option("--retries", options->retries, "largest number of repetitions of a command that fails")
       .check(in_range(0, 100))
       .capture_default_str();
   command.callback([options] { run(*options); });

@@ -164,8 +164,9 @@ void add_train_nnao(Command train) {
                   "stop after this many seconds of training; the same command continues it")
       .check(positive_number());
   command
-      .add_option("--dark-weight", o.training.dark_weight,
-                  "for --form horizon: weight w of dark points; a point has the weight 1 + w x (1 - AO)^2")
+      .add_option(
+          "--dark-weight", o.training.dark_weight,
+          "for --form horizon: factor w for dark points; each point has the weight 1 + w x (1 - AO)^2")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
   command.add_option("--batch", o.training.batch, "points per training step, a multiple of 16")

@@ -48,7 +48,7 @@ void run_in_arena(const Options& options) {
     report_file->commit(report.dump(2) + "\n");
   }
   char line[160];
-  std::snprintf(line, sizeof line, "mse %.5f, by Lagarde's form of the same AO %.5f, ratio %.3f\n",
+  std::snprintf(line, sizeof line, "mse %.5f, with Lagarde's formula and the same AO %.5f, ratio %.3f\n",
                 trained.error.fitted, trained.error.lagarde, trained.error.fitted / trained.error.lagarde);
   print_table(options.common, line, true);
 }

@@ -38,7 +38,7 @@ Row describe(std::span<const std::byte> bytes) {
     if (kind.kind == found) return kind.describe(bytes);
   if (found != 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "a .nook file of a kind that this version cannot inspect; use a newer one");
+                  "a .nook file of a kind that this version cannot inspect; use a newer version");
   return describe_character(bytes);  // throws, with the reason, for bytes that are not a .nook file
 }
 

@@ -90,7 +90,7 @@ void check_options(const Manifest& manifest, const std::string& place, const std
   for (const auto& item : options.items()) {
     const std::string at = place + "." + item.key();
     if (std::count(options_of_plan.begin(), options_of_plan.end(), item.key()) > 0)
-      refuse(manifest, at, "nook plan gives this option to every bake; remove it here");
+      refuse(manifest, at, "nook plan itself sets this option for every bake; remove it here");
     if (item.key().size() < 2 || item.key().find_first_of("-= \t\n") == 0 ||
         item.key().find('=') != std::string::npos)
       refuse(manifest, at, "needs the long name of an option without its dashes, such as \"preset\"");

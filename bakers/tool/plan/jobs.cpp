@@ -31,7 +31,7 @@ std::string normal(const std::string& path) {
 void require_plain_name(const Manifest& m, const std::string& place, const std::string& path) {
   if (path.find_first_of("\n\r") != std::string::npos)
     refuse(m, place,
-           "a name with a line break does not fit into tasks.txt (got \"" + platform::printable(path) +
+           "tasks.txt cannot contain a name with a line break (got \"" + platform::printable(path) +
                "\"); rename the file or skip it");
 }
 
@@ -162,7 +162,7 @@ void add_jobs(Builder& builder, const Asset& asset) {
   for (const char* part : {"lods", "bent", "clips"})
     if (kind != "character" && part_of(asset, part))
       refuse(builder.manifest, place + "." + part,
-             "belongs to characters, and " + asset.path + " is baked as " + kind);
+             "belongs only to characters, but " + asset.path + " is baked as " + kind);
   const std::string stem = body.substr(0, body.size() - std::string(".nook").size()),
                     model = as_argument(body);
   for (const std::string& lod : asset.lods) {
@@ -189,7 +189,7 @@ std::vector<Job> jobs_of(const Manifest& manifest, FileTree& tree) {
   Builder builder{manifest, {}};
   for (const Asset& asset : assets) add_jobs(builder, asset);
   if (builder.jobs.empty())
-    refuse(manifest, "rules", "every file is skipped, so that nothing is left to bake; change the rules");
+    refuse(manifest, "rules", "every file is skipped, so nothing is left to bake; change the rules");
   return ordered_jobs(manifest, std::move(builder.jobs));
 }
 

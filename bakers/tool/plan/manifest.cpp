@@ -89,7 +89,7 @@ void require_keys(const Manifest& m, const std::string& place, const Json& json,
     if (!keys.contains(item.key()))
       refuse(m, place,
              "there is no key \"" + item.key() + "\"; the keys here are " + listed(keys) +
-                 (place.empty() ? "" : ". Options of a bake go into \"options\""));
+                 (place.empty() ? "" : ". Put options of a bake into \"options\""));
 }
 
 std::string text_of(const Manifest& m, const std::string& place, const Json& json) {
@@ -97,7 +97,7 @@ std::string text_of(const Manifest& m, const std::string& place, const Json& jso
   const std::string text = json.get<std::string>();
   if (text.empty()) refuse(m, place, "the text is empty");
   if (text.find_first_of("\n\r") != std::string::npos)
-    refuse(m, place, "names with a line break do not fit into tasks.txt; rename the file");
+    refuse(m, place, "tasks.txt cannot contain a name with a line break; rename the file");
   return text;
 }
 
@@ -128,7 +128,7 @@ std::vector<std::string> patterns_of(const Manifest& m, const std::string& place
 void require_pattern(const Manifest& m, const std::string& place, const std::string& pattern) {
   const std::string plain = expanded(pattern, "dir/stem.glb", false);
   if (plain.find_first_of("{}") != std::string::npos)
-    refuse(m, place, "knows only {dir} and {stem} (got \"" + pattern + "\")");
+    refuse(m, place, "may contain only the placeholders {dir} and {stem} (got \"" + pattern + "\")");
   require_inside(m, place, plain);
 }
 
@@ -152,7 +152,7 @@ void check_part(const Manifest& m, const std::string& place, const std::string& 
 
 Rule checked_rule(const Manifest& m, const std::string& place, const Json& json) {
   require_keys(m, place, json, keys_of_rule());
-  if (!json.contains("match")) refuse(m, place, "needs \"match\", the files that it is about");
+  if (!json.contains("match")) refuse(m, place, "needs \"match\", the files that the rule applies to");
   Rule rule{place, patterns_of(m, place + ".match", json["match"]), json};
   rule.settings.erase("match");
   for (const std::string& pattern : rule.match) require_inside(m, place + ".match", pattern);

@@ -169,8 +169,8 @@ void add_plan_options(Command command, PlanOptions& o) {
       "--build", o.build,
       "folder for build.ninja, tasks.txt, keys and logs; default nook-build beside the manifest");
   command.add_option("--cache", o.cache,
-                     "the folder of bake --cache: what is there is copied now, and bakes keep their results "
-                     "in it; default NOOK_CACHE, if it is set");
+                     "the folder of bake --cache: results that it contains are copied now, and bakes store "
+                     "their results in it; default NOOK_CACHE, if it is set");
   command
       .add_option("--isa", o.isa,
                   "the instruction set of all bakes: x86-64-v2, x86-64-v3 (default on x86-64) or native; "
@@ -181,8 +181,8 @@ void add_plan_options(Command command, PlanOptions& o) {
       .capture_default_str();
   command
       .add_option("--bake-threads", o.bake_threads,
-                  "threads of each bake; 0: 1 in tasks.txt, and under Ninja the cores divided by the bakes "
-                  "that run")
+                  "threads of each bake; 0: one thread in tasks.txt, and under Ninja the number of cores "
+                  "divided by the number of bakes to run")
       .check(in_range(0, 1024))
       .capture_default_str();
   command.add_option("--report", o.report, "write the state of every bake as JSON to this file");

@@ -147,7 +147,7 @@ class Reader {
   // If a report has another size, it belongs to another bake and must not be used to judge this model.
   void drop_other_report() {
     if (report_.is_null() || reported_bytes(report_).value_or(asset_.bytes) == asset_.bytes) return;
-    add(asset_.notes, "its report is of another bake");
+    add(asset_.notes, "its report belongs to another bake");
     report_ = Row();
   }
 

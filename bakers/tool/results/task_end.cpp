@@ -47,12 +47,13 @@ std::optional<std::string> failure_of(const AssetFiles& files, const std::option
     return "exit code " + std::to_string(*end->exit_code) + ": " + end->words;
   const bool has_no_end = end && !end->exit_code;
   if (!files.model.empty() && !(has_no_end && end->is_of_task)) return std::nullopt;
-  if (end && !has_no_end) return "its log ends well, but there is no model";
+  if (end && !has_no_end) return "its log ends without an error, but the model is missing";
   if (has_no_end)
-    return "its log has no end: the bake still runs, or was killed" +
+    return "its log is incomplete: the bake still runs, or was killed" +
            (end->words.empty() ? "" : "; last line: " + end->words);
-  if (!files.report.empty()) return "a report without a model: the bake ended between the two";
-  return "an unfinished part of a model: the bake still runs, or was killed";
+  if (!files.report.empty())
+    return "there is a report but no model: the bake ended before it wrote the model";
+  return "there is only an unfinished part of a model: the bake still runs, or was killed";
 }
 
 }  // namespace nook::tool

@@ -336,7 +336,7 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
   }
   SECTION("descriptor of another type") {
     desc.type = NOOK_DESC_BAKE_TRACE;
-    expected = "desc is a nook_bake_trace_desc, which starts no bake";
+    expected = "desc is a nook_bake_trace_desc, which does not start a bake";
   }
   CHECK(start_result(character, desc) == NOOK_ERROR_INVALID_ARGUMENT);
   INFO(nook_bake_last_message());

@@ -301,7 +301,7 @@ TEST_CASE("a manifest with a fault is refused at its place, before anything runs
           {"rules[0].options.prest", "nook bake character --help"});
   refused(R"({"rules": [{"match": "*.glb", "options": {"rays": 0}}]})", {"rules[0].options.rays"});
   refused(R"({"rules": [{"match": "*.glb", "options": {"rays": {}}}]})", {"rules[0].options.rays"});
-  refused(R"({"rules": [{"match": "*.glb", "options": {"output": "x.nook"}}]})", {"gives this option"});
+  refused(R"({"rules": [{"match": "*.glb", "options": {"output": "x.nook"}}]})", {"sets this option"});
   refused(R"({"rules": [{"match": "*.glb", "bent": {"options": {"gamma": 1}}}]})",
           {"rules[0].bent.options.gamma"});
   refused(R"({"rules": [{"match": "*.glb", "options": {"rig": "../rig.json"}}]})",

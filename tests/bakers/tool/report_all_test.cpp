@@ -210,7 +210,7 @@ TEST_CASE("a report of another bake does not judge a model") {
   write_text(folder.path("farm/two.json"), "{\"rows\": [");
   const std::vector<PageRow> rows = page_of(folder);
   CHECK(row_of(rows, "one").state == "not measured");
-  CHECK(row_of(rows, "one").notes == "its report is of another bake");
+  CHECK(row_of(rows, "one").notes == "its report belongs to another bake");
   CHECK(row_of(rows, "two").notes == "its report is not JSON");
 }
 
