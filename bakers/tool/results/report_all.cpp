@@ -165,8 +165,8 @@ void report_all(const ReportAllOptions& options, const CommonOptions& common) {
   overview.assets = read_all(options.folder, found, common);
   if (overview.assets.empty() && found.faults.empty())
     throw ToolError(exit_bad_input, "--all: " + options.folder.string() +
-                                        " holds no baked file and no trace of a bake; give the folder that "
-                                        "bakes write to");
+                                        " contains no baked file, and no log, report or unfinished part of a "
+                                        "bake; give the folder that bakes write to");
   add_faults(found, overview.assets);
   if (last) {
     overview.before = last->made;

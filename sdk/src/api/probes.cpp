@@ -79,8 +79,8 @@ void read_lobes(const nook_probe_desc& desc, Probes& probes) {
   for (std::size_t i = count; i < all; ++i)
     if (!same_function(desc.lobes[i], desc.lobes[i % count]))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "lobe %zu of probe %zu has another axis or sharpness than in probe 0; all probes need "
-                    "the same lobes",
+                    "lobe %zu of probe %zu differs in axis or sharpness from the same lobe of probe 0; all "
+                    "probes need the same lobes",
                     i % count, i / count);
   probes.basis = basis_of(desc.lobes, desc.lobe_count);
   probes.coefficients.resize(all);
@@ -102,7 +102,9 @@ Probes probes_of(const nook_probe_desc& desc, nook::Memory* memory) {
   const int sources = (desc.fits != nullptr) + (desc.lobes != nullptr) + (desc.coefficients != nullptr);
   if (sources != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc has %d sources of light, need 1; set one of fits, lobes and coefficients", sources);
+                  "desc has %d sources of light, need 1; set exactly one of desc.fits, desc.lobes and "
+                  "desc.coefficients",
+                  sources);
   Probes probes(memory);
   for (std::size_t i = 0; i < 3; ++i) probes.grid.counts[i] = desc.counts[i];
   probes.grid.origin_ws = vec3(desc.origin_ws);

@@ -94,9 +94,10 @@ void read_direction(const nook_transfer_light_desc& desc, nook_transfer_light_s&
 void need_one_source(const nook_transfer_light_desc& desc) {
   const int sources = (desc.rgb != nullptr) + (desc.probe != nullptr) + (desc.direction != nullptr);
   if (sources != 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc has %d sources of light, need 1; set one of desc.rgb, desc.probe and desc.direction",
-                  sources);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc has %d sources of light, need 1; set exactly one of desc.rgb, desc.probe and desc.direction",
+        sources);
 }
 
 // Rotates a direction from the light's space to the shape's. The inverse of a rotation is its transpose.

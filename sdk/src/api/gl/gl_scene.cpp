@@ -31,9 +31,10 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
                   target.struct_size, size);
   check_known("target.format", target.format, NOOK_FORMAT_UNORM8);
   if ((target.buffer == 0) == (target.texture == 0))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.buffer and target.texture are %u and %u; need exactly one of them", target.buffer,
-                  target.texture);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "target.buffer and target.texture are %u and %u; set exactly one of them, and leave the other 0",
+        target.buffer, target.texture);
   // Larger than any buffer, but so small that sums of offsets do not overflow 64 bits.
   constexpr std::uint64_t max_offset = std::uint64_t{1} << 40;
   if (target.offset > max_offset || target.instance_stride > max_offset || count > (1u << 20))
@@ -55,7 +56,9 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
                   target.stride, target.texture_width);
   if (count > 1 && target.instance_stride == 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.instance_stride is 0 with %u instances; give the distance between them", count);
+                  "target.instance_stride is 0, but there are %u instances; set it to the distance from one "
+                  "instance to the next",
+                  count);
 }
 
 }  // namespace

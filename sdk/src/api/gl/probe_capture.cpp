@@ -60,7 +60,8 @@ void check_targets(nook_gl gl, const nook_gl_capture_desc& desc) {
                   "desc.probe and desc.grid are NULL; at least one texture must receive the light");
   if ((desc.probe && desc.probe->gl != gl) || (desc.grid && desc.grid->gl != gl))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.probe or desc.grid belongs to another nook_gl; create both with this one");
+                  "desc.probe or desc.grid belongs to another nook_gl; upload both with the same nook_gl as "
+                  "the capture");
   if (desc.probe && !desc.probe->probe())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.probe is not an upload of NOOK_GL_PROBE_LOBES; pass a grid of diffuse light as "
