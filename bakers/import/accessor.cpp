@@ -108,17 +108,18 @@ struct Strided {
 Strided checked_view(const tinygltf::Model& model, int view_index, std::size_t offset, std::size_t count,
                      std::size_t element_size, bool may_stride, const std::string& what) {
   if (view_index < 0 || static_cast<std::size_t>(view_index) >= model.bufferViews.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s names buffer view %d (file has %zu)", what.c_str(), view_index,
-                  model.bufferViews.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to buffer view %d, but the file has only %zu", what.c_str(),
+                  view_index, model.bufferViews.size());
   const tinygltf::BufferView& view = model.bufferViews[view_index];
   if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model.buffers.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s names buffer %d (file has %zu)", what.c_str(), view.buffer,
-                  model.buffers.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to buffer %d, but the file has only %zu", what.c_str(),
+                  view.buffer, model.buffers.size());
   const std::vector<unsigned char>& data = model.buffers[view.buffer].data;
   const std::size_t stride = may_stride && view.byteStride != 0 ? view.byteStride : element_size;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s: its buffer view ends at byte %zu + %zu of a buffer of %zu; truncated file?",
+                  "%s: its buffer view starts at byte %zu and has %zu bytes, but its buffer has only %zu; "
+                  "the file may be truncated",
                   what.c_str(), view.byteOffset, view.byteLength, data.size());
   const bool fits = count == 0 || (offset <= view.byteLength && element_size <= view.byteLength - offset &&
                                    (count - 1) <= (view.byteLength - offset - element_size) / stride);
@@ -132,8 +133,8 @@ Strided checked_view(const tinygltf::Model& model, int view_index, std::size_t o
 
 const tinygltf::Accessor& checked_accessor(const tinygltf::Model& model, int index, const std::string& what) {
   if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s names accessor %d (file has %zu)", what.c_str(), index,
-                  model.accessors.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to accessor %d, but the file has only %zu", what.c_str(),
+                  index, model.accessors.size());
   return model.accessors[index];
 }
 
@@ -145,7 +146,8 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
   const std::size_t size = component_size(accessor.componentType);
   const int components = component_count(accessor.type);
   if (size == 0 || components == 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has component type %d and type %d, which glTF does not have",
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s has component type %d and type %d; at least one of these does not exist in glTF",
                   what.c_str(), accessor.componentType, accessor.type);
   if (wanted_components > 0 && components != wanted_components)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %d components per element (need %d)", what.c_str(), components,
@@ -172,7 +174,8 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
   if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count ||
       sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s: sparse count %d or its offsets are out of range (accessor has %zu elements)",
+                  "%s: the sparse count %d is out of range for an accessor of %zu elements, or a sparse "
+                  "offset is negative",
                   what.c_str(), sparse.count, accessor.count);
   const std::size_t index_size = component_size(sparse.indices.componentType);
   if (!is_index_type(sparse.indices.componentType))
@@ -190,8 +193,8 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
     const std::uint32_t element =
         load_integer(indices.first + i * index_size, sparse.indices.componentType, what);
     if (element >= accessor.count)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s: sparse index %u (accessor has %zu elements)", what.c_str(),
-                    element, accessor.count);
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s: a sparse index is %u, but the accessor has only %zu elements",
+                    what.c_str(), element, accessor.count);
     // glTF 2.0, section 3.6.2.3.
     if (i > 0 && element <= before)
       throw Failure(NOOK_ERROR_BAD_FILE,

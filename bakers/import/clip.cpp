@@ -100,11 +100,10 @@ Pose bone_matrices(const ImportedCharacter& character, const std::vector<Trs>& l
         nearest_mirroring_similarity(world[binding.node] * binding.node_from_rest, binding.origin_rest);
     pose.push_back(to_float(bone.matrix));
     if (!is_pose_matrix(pose.back()))
-      throw Failure(
-          NOOK_ERROR_BAD_FILE,
-          "a clip or the default pose gives bone %zu (\"%s\") a matrix that is not finite or beyond 1e9 m "
-          "or 1e6 times its size",
-          b, character.mesh.bones[b].name.c_str());
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "a clip or the default pose moves bone %zu (\"%s\") beyond 1e9 m, scales it by more than "
+                    "1e6, or gives it a matrix that is not finite",
+                    b, character.mesh.bones[b].name.c_str());
     if (deviation) deviation->push_back(bone.deviation);
   }
   return pose;

@@ -467,7 +467,7 @@ std::string sentence_of(const tinygltf::Model& model, const CoincidentPair& pair
       return "\"" + (name.empty() ? node_label(model, pair.node[i]) : name) + "\"";
     };
     what = "nodes " + label(0, first) + " and " + label(1, second);
-    cure = second.empty() ? "give it a name of its own and leave it out by --without"
+    cure = second.empty() ? "give it a unique name and leave it out with --without"
                           : "leave it out: --without \"" + second + "\"";
   }
   return what + " lie on each other over " + cover +
@@ -483,7 +483,7 @@ std::string sentence_of(const tinygltf::Model& model, const OutlineHull& hull) {
   if (hull.is_whole_node) {
     const std::string name = chosen_name(model, {{hull.node, hull.inner_node}, {}, {}}, 0);
     what = name.empty() ? node : "\"" + name + "\"";
-    cure = name.empty() ? "give it a name of its own and leave it out by --without"
+    cure = name.empty() ? "give it a unique name and leave it out with --without"
                         : "leave it out: --without \"" + name + "\"";
   } else {
     what = "primitive " + std::to_string(hull.primitive) + " of " + node;
@@ -492,7 +492,8 @@ std::string sentence_of(const tinygltf::Model& model, const OutlineHull& hull) {
   around = hull.inner_node == hull.node ? "primitive " + std::to_string(hull.inner_primitive)
                                         : "node \"" + node_label(model, hull.inner_node) + "\"";
   return what + " lies close around " + percent + " of " + around +
-         " and turns its faces inside, as the hull of a toon outline does, so that it darkens all of it; " +
+         " with its faces turned inwards, like the hull of a toon outline, and darkens all that lies "
+         "inside; " +
          cure;
 }
 

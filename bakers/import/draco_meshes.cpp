@@ -57,10 +57,11 @@ int whole_number(const tinygltf::Value& object, const char* name, const std::str
 std::pair<const char*, std::size_t> source_of(const tinygltf::Model& model, int index,
                                               const std::string& what) {
   if (std::size_t(index) >= model.bufferViews.size())
-    refuse(what, "names buffer view " + std::to_string(index) + " (file has " +
-                     std::to_string(model.bufferViews.size()) + ")");
+    refuse(what, "it refers to buffer view " + std::to_string(index) + ", but the file has only " +
+                     std::to_string(model.bufferViews.size()));
   const tinygltf::BufferView& view = model.bufferViews[std::size_t(index)];
-  if (view.buffer < 0 || std::size_t(view.buffer) >= model.buffers.size()) refuse(what, "names no buffer");
+  if (view.buffer < 0 || std::size_t(view.buffer) >= model.buffers.size())
+    refuse(what, "its buffer view refers to a buffer that does not exist");
   const std::vector<unsigned char>& data = model.buffers[std::size_t(view.buffer)].data;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
     refuse(what, "its buffer view is not inside its buffer");
@@ -76,11 +77,11 @@ std::unique_ptr<draco::Mesh> decode(std::pair<const char*, std::size_t> source, 
     draco::Decoder decoder;
     auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
     if (decoded.ok()) return std::move(decoded).value();
-    refuse(what, "is damaged (" + decoded.status().error_msg_string() + ")");
+    refuse(what, "its data are damaged (" + decoded.status().error_msg_string() + ")");
   } catch (const Failure&) {
     throw;
   } catch (const std::exception& fault) {
-    refuse(what, std::string("is damaged (") + fault.what() + ")");
+    refuse(what, std::string("its data are damaged (") + fault.what() + ")");
   }
 }
 
@@ -94,7 +95,7 @@ class Decompressed {
     const auto source = source_of(model_, whole_number(extension, "bufferView", what), what);
     const std::unique_ptr<draco::Mesh> mesh = decode(source, what);
     if (mesh->num_points() > max_file_vertices || mesh->num_faces() > max_file_vertices * 4)
-      refuse(what, "too many vertices or triangles");
+      refuse(what, "it has too many vertices or triangles");
     add_indices(*mesh, primitive);
     if (!extension.Has("attributes") || !extension.Get("attributes").IsObject())
       refuse(what, "\"attributes\" is missing");
@@ -112,7 +113,8 @@ class Decompressed {
 
  private:
   int add_accessor(tinygltf::Accessor accessor, std::vector<unsigned char> bytes) {
-    if (bytes.size() > left_) throw Failure(NOOK_ERROR_BAD_FILE, "decompressed data of more than 2 GiB");
+    if (bytes.size() > left_)
+      throw Failure(NOOK_ERROR_BAD_FILE, "the decompressed data have more than 2 GiB");
     left_ -= bytes.size();
     tinygltf::BufferView view;
     view.buffer = int(model_.buffers.size());
@@ -164,12 +166,13 @@ class Decompressed {
   int add_attribute(const draco::Mesh& mesh, const draco::PointAttribute& attribute, int index,
                     const std::string& what) {
     if (index < 0 || std::size_t(index) >= model_.accessors.size())
-      refuse(what, "names accessor " + std::to_string(index));
+      refuse(what, "it refers to an accessor that does not exist: " + std::to_string(index));
     tinygltf::Accessor accessor = model_.accessors[std::size_t(index)];
     const int components = attribute.num_components();
     if (components < 1 || components > 4 ||
         tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type)) != components)
-      refuse(what, std::to_string(components) + " components per element do not fit the accessor");
+      refuse(what, "its data have " + std::to_string(components) +
+                       " components per element, but its accessor has another number");
     accessor.count = mesh.num_points();
     switch (accessor.componentType) {
       case TINYGLTF_COMPONENT_TYPE_BYTE:
@@ -185,7 +188,7 @@ class Decompressed {
       case TINYGLTF_COMPONENT_TYPE_FLOAT:
         return add_accessor(accessor, values<float>(mesh, attribute, components, what));
       default:
-        refuse(what, "its accessor has no type of glTF");
+        refuse(what, "its accessor has a component type that glTF does not define");
     }
   }
 

@@ -35,12 +35,12 @@ void check_structure(std::span<const std::byte> json) {
     if (c == '"') in_string = true;
     if (c == '{' || c == '[') {
       if (++depth > max_depth)
-        throw Failure(NOOK_ERROR_BAD_FILE, "JSON nested deeper than %d levels", max_depth);
+        throw Failure(NOOK_ERROR_BAD_FILE, "the JSON is nested deeper than %d levels", max_depth);
     } else if (c == '}' || c == ']') {
       --depth;
     }
     if ((c == '{' || c == '[' || c == ',') && ++values > max_values)
-      throw Failure(NOOK_ERROR_BAD_FILE, "JSON of more than %zu values", max_values);
+      throw Failure(NOOK_ERROR_BAD_FILE, "the JSON has more than %zu values", max_values);
   }
 }
 
@@ -60,7 +60,7 @@ const char* advice_for(std::string_view extension) {
   if (extension == "KHR_draco_mesh_compression") return "decode it first: gltf-transform copy IN.glb OUT.glb";
   if (extension == "MESHOPT_compression")
     return "decode it first: gltfpack -i IN.glb -o OUT.glb -noq, or gltf-transform copy IN.glb OUT.glb";
-  return "export it without";
+  return "export it without this requirement";
 }
 
 void check_extensions(const Json& document) {
@@ -77,7 +77,8 @@ void check_extensions(const Json& document) {
     if (names.size() < 120) names += (names.empty() ? "" : ", ") + name.substr(0, 60);
   }
   if (advice)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the file requires %s, which is not read; %s", names.c_str(), advice);
+    throw Failure(NOOK_ERROR_BAD_FILE, "the file requires %s, which Nook does not read; %s", names.c_str(),
+                  advice);
 }
 
 int hex_digit(char c) {
@@ -187,7 +188,7 @@ void check_buffers(const Json& document, bool is_binary, std::map<std::string, s
       bytes = number > 0 ? std::uint64_t(std::min(number, double(max_file_bytes) + 1)) : 0;
       total += bytes;
       if (total > max_file_bytes)
-        throw Failure(NOOK_ERROR_BAD_FILE, "buffers of more than 2 GiB in all; split the file");
+        throw Failure(NOOK_ERROR_BAD_FILE, "the buffers have more than 2 GiB in all; split the file");
     }
     if (const std::string* uri = file_uri(buffer)) {
       std::uint64_t& most = files[percent_decoded(*uri)];
@@ -358,7 +359,7 @@ bool LinkedFileReader::is_room(const std::string& path) const {
 }
 
 bool LinkedFileReader::refuse(const std::string& name, const char* why) {
-  fault_ = "names \"";
+  fault_ = "refers to \"";
   fault_.append(name, 0, 120).append("\", ").append(why);
   return false;
 }
@@ -384,21 +385,23 @@ bool LinkedFileReader::may_open(const std::string& path) {
   const std::string name = name_of(path);
   if (name.empty() || (only_buffers_ && !preflight_.buffer_files.contains(name))) return false;
   // A C string ends at the NUL, so that we would open another file than we checked.
-  if (name.find('\0') != std::string::npos) return refuse(name.c_str(), "with a NUL character; rename it");
+  if (name.find('\0') != std::string::npos)
+    return refuse(name.c_str(), "a name with a NUL character; rename it");
   if (linked_ == LinkedFiles::folder && climbs(name))
-    return refuse(name,
-                  "outside of its own folder; copy it there, or allow files outside (--allow-outside-files)");
+    return refuse(
+        name,
+        "which is outside of its own folder; copy it there, or allow files outside (--allow-outside-files)");
   std::error_code error;
   const std::filesystem::path file = std::filesystem::path(folder_) / name;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
-  if (!std::filesystem::exists(status)) return refuse(name, "which is not there");
+  if (!std::filesystem::exists(status)) return refuse(name, "which does not exist");
   if (linked_ == LinkedFiles::folder && leaves_folder(name))
     return refuse(name,
-                  "a link that leads outside of its own folder; copy the file there, or "
-                  "allow files outside (--allow-outside-files)");
+                  "a link that leads outside of its own folder; copy the file there, or allow files outside "
+                  "(--allow-outside-files)");
   if (!std::filesystem::is_regular_file(status)) return refuse(name, "which is not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || size > left_) return refuse(name, "with which its files have more than 2 GiB");
+  if (error || size > left_) return refuse(name, "and its linked files have more than 2 GiB in all");
   return true;
 }
 
@@ -417,7 +420,7 @@ bool LinkedFileReader::read(const std::string& path, std::vector<unsigned char>&
   std::ifstream file(named, std::ios::binary);
   out.resize(std::size_t(size));
   if (!file || !file.read(reinterpret_cast<char*>(out.data()), std::streamsize(size))) {
-    fault_ = "names a file that cannot be read: " + named.string().substr(0, 200);
+    fault_ = "refers to a file that cannot be read: " + named.string().substr(0, 200);
     return false;
   }
   left_ -= size;

@@ -300,8 +300,8 @@ void warn_of_inside_out_parts(const tinygltf::Model& model, const SurfaceParts& 
                        mesh_label(model, model.nodes[name.first].mesh) + "\" primitive " +
                        std::to_string(name.second) + ", " + std::to_string(sum.second) +
                        (sum.first == 1 ? " triangles) is inside out" : " triangles) are inside out") +
-                       ", so that it gets the AO of its inside; turn the faces and normals outside, for "
-                       "example by Mesh > Normals > Recalculate Outside in Blender, and export again");
+                       ", so its outer side gets the AO of the inside; turn the faces and normals outwards, "
+                       "for example with Mesh > Normals > Recalculate Outside in Blender, and export again");
   }
   if (of.size() > most)
     warnings.push_back(std::to_string(of.size() - most) + " more primitives have parts that are inside out");

@@ -32,23 +32,24 @@ Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes,
   Skin skin;
   for (const int joint : source.joints) {
     if (joint < 0 || static_cast<std::size_t>(joint) >= nodes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s names joint node %d (file has %zu nodes)", what.c_str(), joint,
-                    nodes.size());
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to node %d as a joint, but the file has only %zu nodes",
+                    what.c_str(), joint, nodes.size());
     skin.joint.push_back(static_cast<std::uint32_t>(joint));
   }
   std::vector<std::uint32_t> sorted = skin.joint;
   std::sort(sorted.begin(), sorted.end());
   if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
     warnings.push_back(what + " lists joint node " + std::to_string(*twice) +
-                       " twice, which glTF forbids; both entries follow it");
+                       " twice, which glTF forbids; both entries follow this node");
   // Without the accessor all matrices are identity: glTF 2.0, section 3.7.3.1.
   skin.inverse_bind.resize(skin.joint.size());
   if (source.inverseBindMatrices < 0) return skin;
   const std::string matrices_name = what + " inverse bind matrices";
   const std::size_t count = element_count(model, source.inverseBindMatrices, matrices_name);
   if (count < skin.joint.size() || count > max_bone_count)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu inverse bind matrices for %zu joints", what.c_str(), count,
-                  skin.joint.size());
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s has %zu inverse bind matrices for %zu joints (need one for each joint)", what.c_str(),
+                  count, skin.joint.size());
   const Floats matrices =
       read_floats(model, source.inverseBindMatrices, 16, matrices_name, skin.joint.size());
   for (std::size_t j = 0; j < skin.joint.size(); ++j) {
@@ -93,7 +94,8 @@ MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, c
       continue;
     }
     if (static_cast<std::size_t>(skin) >= model.skins.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "node %u names skin %d (file has %zu)", i, skin, model.skins.size());
+      throw Failure(NOOK_ERROR_BAD_FILE, "node %u refers to skin %d, but the file has only %zu", i, skin,
+                    model.skins.size());
     if (place_of_skin[skin] < 0) {
       place_of_skin[skin] = static_cast<std::int64_t>(out.skins.size());
       out.skins.push_back(read_skin(model, skin, nodes, warnings));
@@ -177,7 +179,7 @@ Skeleton skeleton_of(ImportedCharacter& character, const MeshNodes& mesh_nodes) 
   }
   skeleton = build_skeleton(nodes, mesh_nodes.skins, moves, mesh_nodes.rigid_nodes);
   character.warnings.push_back(
-      "no mesh has a skin and no clip moves a mesh, so the file is a rigid prop of " +
+      "no mesh has a skin and no clip moves a mesh, so the file was read as a rigid prop with " +
       std::to_string(skeleton.bones.size()) + " bones");
   return skeleton;
 }

@@ -139,7 +139,8 @@ void look_at_nodes(const tinygltf::Model& model, std::vector<std::string>& warni
     if (!node.rotation.empty() && !(std::abs(square - 1) < 1e-3)) not_unit.add(name_of_node(model, n));
   }
   warn(warnings, last_row, "nodes have a matrix whose last row is not 0 0 0 1; the row was not used");
-  warn(warnings, both, "nodes have a matrix beside translation, rotation or scale; the matrix was taken");
+  warn(warnings, both,
+       "nodes have a matrix as well as a translation, rotation or scale; the matrix was used");
   warn(warnings, not_unit, "nodes have a rotation that is not a unit quaternion; it was normalised");
 }
 
@@ -223,8 +224,10 @@ void look_at_primitives(const tinygltf::Model& model, std::vector<std::string>& 
   });
   warn(warnings, unread_types, "attributes have a type that glTF does not allow for them");
   warn(warnings, restarts,
-       "index lists use the value that restarts primitives, which glTF forbids; it was read as a vertex");
-  warn(warnings, bounds, "accessors of positions have min and max that do not match; they were not used");
+       "index lists contain the value that restarts primitives, which glTF forbids; it was read as the index "
+       "of a vertex");
+  warn(warnings, bounds,
+       "accessors of positions have a min and max that do not match their values; min and max were not used");
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ Interpolation interpolation_of(const std::string& text, const std::string& what)
   if (text.empty() || text == "LINEAR") return Interpolation::linear;
   if (text == "STEP") return Interpolation::step;
   if (text == "CUBICSPLINE") return Interpolation::cubic_spline;
-  throw Failure(NOOK_ERROR_BAD_FILE, "%s: interpolation \"%s\" (need LINEAR, STEP or CUBICSPLINE)",
+  throw Failure(NOOK_ERROR_BAD_FILE, "%s has the interpolation \"%s\" (need LINEAR, STEP or CUBICSPLINE)",
                 what.c_str(), text.c_str());
 }
 
@@ -70,8 +70,8 @@ Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& an
                      const tinygltf::AnimationChannel& source, ChannelPath path, const std::string& what,
                      std::size_t& left) {
   if (source.sampler < 0 || static_cast<std::size_t>(source.sampler) >= animation.samplers.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s names sampler %d (animation has %zu)", what.c_str(),
-                  source.sampler, animation.samplers.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to sampler %d, but the animation has only %zu",
+                  what.c_str(), source.sampler, animation.samplers.size());
   const tinygltf::AnimationSampler& sampler = animation.samplers[source.sampler];
   Channel channel;
   channel.node = static_cast<std::uint32_t>(source.target_node);
@@ -96,7 +96,7 @@ Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& an
       !std::all_of(channel.value.begin(), channel.value.end(), is_finite))
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has a key that is not finite", what.c_str());
   if (!std::is_sorted(channel.time_s.begin(), channel.time_s.end()))
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has key times that go back", what.c_str());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has key times that decrease", what.c_str());
   return channel;
 }
 
@@ -111,7 +111,8 @@ void settle_times(Clip& clip) {
   clip.start_s = first;
   clip.duration_s = last - first;
   if (!std::isfinite(clip.duration_s))
-    throw Failure(NOOK_ERROR_BAD_FILE, "clip \"%s\" lasts longer than a float can say", clip.name.c_str());
+    throw Failure(NOOK_ERROR_BAD_FILE, "clip \"%s\" lasts longer than a float can represent",
+                  clip.name.c_str());
   for (Channel& channel : clip.channels)
     for (float& t : channel.time_s) t -= first;
 }
@@ -143,7 +144,7 @@ std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes
         continue;
       }
       if (static_cast<std::size_t>(source.target_node) >= nodes.size())
-        throw Failure(NOOK_ERROR_BAD_FILE, "%s names node %d (file has %zu)", what.c_str(),
+        throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to node %d, but the file has only %zu", what.c_str(),
                       source.target_node, nodes.size());
       if (nodes.nodes[source.target_node].matrix)
         throw Failure(NOOK_ERROR_BAD_FILE,

@@ -40,7 +40,8 @@ std::span<const std::byte> json_of_binary(std::span<const std::byte> bytes) {
     throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (got %zu bytes, its header says %u)", bytes.size(),
                   total);
   if (json > total - 20)
-    throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (its JSON chunk says %u bytes, %u are left)", json,
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "truncated .glb (its JSON chunk should have %u bytes, but only %u are left)", json,
                   total - 20);
   return bytes.subspan(20, json);
 }
@@ -83,7 +84,8 @@ std::array<double, n> read_numbers(const std::vector<double>& from, std::array<d
   if (from.empty()) return otherwise;
   std::array<double, n> out{};
   if (from.size() != n)
-    throw Failure(NOOK_ERROR_BAD_FILE, "node %zu has a transform of %zu numbers (need %zu)", node,
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "node %zu has a translation, rotation, scale or matrix with %zu numbers (need %zu)", node,
                   from.size(), n);
   std::copy(from.begin(), from.end(), out.begin());
   return out;
@@ -102,7 +104,7 @@ Node read_node(const tinygltf::Node& source, std::size_t index) {
     for (double& q : node.local.rotation) q /= std::sqrt(square);
   if (!(square > 0) || !is_finite(default_local(node)))
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "node %zu (\"%s\") has a transform that is not finite or a zero quaternion", index,
+                  "node %zu (\"%s\") has a transform that is not finite, or a rotation of length 0", index,
                   node.name.c_str());
   return node;
 }
@@ -147,11 +149,11 @@ void restore(const GltfPreflight& preflight, tinygltf::Model& model) {
 }  // namespace
 
 tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& files, Images images) {
-  if (bytes.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "empty file");
+  if (bytes.empty()) throw Failure(NOOK_ERROR_BAD_FILE, "the file is empty");
   if (const char* format = foreign_format(bytes))
     throw Failure(NOOK_ERROR_BAD_FILE, "this is %s, not a glTF file; give a .glb or .gltf file", format);
   if (bytes.size() > 0x7fffffffu)
-    throw Failure(NOOK_ERROR_BAD_FILE, "file of %zu bytes (need less than 2 GiB)", bytes.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "the file has %zu bytes (need less than 2 GiB)", bytes.size());
   const GltfPreflight preflight =
       check_before_parsing(is_binary(bytes) ? json_of_binary(bytes) : bytes, is_binary(bytes));
   std::vector<std::byte> replaced;
@@ -204,7 +206,8 @@ NodeTree read_nodes(const tinygltf::Model& model) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i)
     for (const int child : model.nodes[i].children) {
       if (child < 0 || static_cast<std::size_t>(child) >= tree.size())
-        throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names child %d (file has %zu nodes)", i, child,
+        throw Failure(NOOK_ERROR_BAD_FILE,
+                      "node %zu refers to node %d as a child, but the file has only %zu nodes", i, child,
                       tree.size());
       if (tree.nodes[child].parent >= 0)
         throw Failure(NOOK_ERROR_BAD_FILE, "node %d has two parents, %d and %zu (need a tree)", child,

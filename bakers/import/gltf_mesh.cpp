@@ -36,13 +36,15 @@ void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& 
                        const std::vector<double>& weights, const std::string& what,
                        std::vector<float>& position) {
   if (weights.size() > primitive.targets.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu morph targets and %zu default weights for them",
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s has %zu morph targets but %zu default weights (need at most one for each target)",
                   what.c_str(), primitive.targets.size(), weights.size());
   const auto at_work =
       std::size_t(std::count_if(weights.begin(), weights.end(), [](double weight) { return weight != 0; }));
   if (at_work > max_targets_at_work)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s has %zu morph targets with default weights other than 0 (need at most %zu); apply them",
+                  "%s has %zu morph targets with default weights other than 0 (need at most %zu); apply the "
+                  "targets to the mesh",
                   what.c_str(), at_work, max_targets_at_work);
   for (std::size_t t = 0; t < weights.size(); ++t) {
     if (weights[t] == 0) continue;
@@ -53,8 +55,8 @@ void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& 
     if (accessor == primitive.targets[t].end()) continue;
     const std::size_t count = element_count(model, accessor->second, target);
     if (count != position.size() / 3)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s moves %zu vertices (primitive has %zu)", target.c_str(), count,
-                    position.size() / 3);
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s moves %zu vertices, but the primitive has %zu", target.c_str(),
+                    count, position.size() / 3);
     const Floats moved = read_floats(model, accessor->second, 3, target);
     for (std::size_t i = 0; i < position.size(); ++i)
       position[i] += static_cast<float>(weights[t] * static_cast<double>(moved.value[i]));
@@ -92,11 +94,10 @@ Influences read_influences(const tinygltf::Model& model, const tinygltf::Primiti
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%s has a skin but no JOINTS_0 and WEIGHTS_0; export it with its weights", what.c_str());
   if (sets > max_influence_sets || sets * vertices > max_influence_elements)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "%s has too many joints: %zu sets for %zu vertices (need at most %zu sets, and %zu elements in "
-        "all of them)",
-        what.c_str(), sets, vertices, max_influence_sets, max_influence_elements);
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s has too many joints: %zu sets of joints and weights for %zu vertices (need at most %zu "
+                  "sets, and at most %zu elements in all sets together)",
+                  what.c_str(), sets, vertices, max_influence_sets, max_influence_elements);
   Influences out;
   for (std::size_t set = 0; set < sets; ++set) {
     const std::string joints = "JOINTS_" + std::to_string(set), weights = "WEIGHTS_" + std::to_string(set);
@@ -119,7 +120,8 @@ std::uint16_t first_bone(const Influences& influences, const MeshBinding& bindin
                          const std::string& what) {
   const std::uint32_t joint = influences.joint[0].value[4 * vertex];
   if (joint >= binding.bone.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu has no weights and names joint %u (skin has %zu)",
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%s: vertex %zu has no weights and refers to joint %u, but the skin has only %zu",
                   what.c_str(), vertex, joint, binding.bone.size());
   return binding.bone[joint];
 }
@@ -152,8 +154,8 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
           continue;
         }
         if (joint >= binding.bone.size())
-          throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu names joint %u (skin has %zu)", what.c_str(), v,
-                        joint, binding.bone.size());
+          throw Failure(NOOK_ERROR_BAD_FILE, "%s: vertex %zu refers to joint %u, but the skin has only %zu",
+                        what.c_str(), v, joint, binding.bone.size());
         of_vertex.push_back({binding.bone[joint], weight});
         sum += weight;
         ++positive;
@@ -256,12 +258,13 @@ void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings
         repairs.without_weights, repairs.skinned);
   if (repairs.without_weights > 0)
     warnings.push_back(std::to_string(repairs.without_weights) + " of " + std::to_string(repairs.skinned) +
-                       " skinned vertices have no weights; each follows its own first joint alone");
+                       " skinned vertices have no weights; each follows only its first joint");
   char text[200];
   if (repairs.sums_not_one > 0) {
-    std::snprintf(text, sizeof text,
-                  "%zu vertices have weights that do not add up to 1 (worst sum %g); normalised",
-                  repairs.sums_not_one, repairs.worst_sum);
+    std::snprintf(
+        text, sizeof text,
+        "%zu vertices have weights that do not add up to 1 (worst sum %g); the weights were normalised",
+        repairs.sums_not_one, repairs.worst_sum);
     warnings.push_back(text);
   }
   if (repairs.negative_weights > 0)
@@ -270,11 +273,12 @@ void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings
     warnings.push_back(std::to_string(repairs.too_many_bones) + " vertices have more than " +
                        std::to_string(SkinWeights::max_bones) + " bones; the smallest weights were dropped");
   if (repairs.with_targets > 0)
-    warnings.push_back(std::to_string(repairs.with_targets) +
-                       " meshes have morph targets; AO follows the bones, and not changes of morph weights");
+    warnings.push_back(
+        std::to_string(repairs.with_targets) +
+        " meshes have morph targets; AO follows the bones, but not changes of the morph weights");
   if (repairs.morphed > 0)
     warnings.push_back(std::to_string(repairs.morphed) +
-                       " meshes have morph targets with default weights, which are part of the rest pose");
+                       " meshes have morph targets with default weights; the rest pose includes them");
   if (repairs.not_triangles > 0)
     warnings.push_back(std::to_string(repairs.not_triangles) +
                        " primitives of points or lines were left out");

@@ -57,22 +57,24 @@ std::string name_of(const tinygltf::Image& image, int index) {
 std::uint32_t GltfTextures::image_of(const tinygltf::Texture& texture, const std::string& what) {
   const int source = texture.source;
   if (source < 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has an image only in a glTF extension; convert it to PNG or JPEG",
-                  what.c_str());
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%s has its image only in a glTF extension that Nook does not read; convert the image to PNG or JPEG",
+        what.c_str());
   if (std::size_t(source) >= model_.images.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s names image %d (file has %zu)", what.c_str(), source,
-                  model_.images.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to image %d, but the file has only %zu", what.c_str(),
+                  source, model_.images.size());
   const auto known = place_of_source_.find(source);
   if (known != place_of_source_.end()) return known->second;
   const tinygltf::Image& image = model_.images[std::size_t(source)];
   const std::span<const unsigned char> bytes = bytes_of(model_, image);
   if (bytes.empty())
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s: %s cannot be read; it must be a regular file at the path that the scene's file names, "
-                  "in that file's folder or below, or allow files outside",
+                  "%s: %s cannot be read; it must be a regular file at the path that the scene's file gives, "
+                  "and inside the folder of that file unless you allow files outside",
                   what.c_str(), name_of(image, source).c_str());
   if (bytes.size() > max_file_bytes - bytes_)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s: images of more than 2 GiB in all", what.c_str());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s: the images have more than 2 GiB in all", what.c_str());
   bytes_ += bytes.size();
   const auto* first = reinterpret_cast<const std::byte*>(bytes.data());
   images_.push_back({what + ": " + name_of(image, source), {first, first + bytes.size()}});
@@ -85,8 +87,8 @@ TextureUse GltfTextures::use(const tinygltf::TextureInfo& info, const std::strin
   TextureUse use;
   if (info.index < 0) return use;
   if (std::size_t(info.index) >= model_.textures.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s is texture %d (file has %zu)", what.c_str(), info.index,
-                  model_.textures.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to texture %d, but the file has only %zu", what.c_str(),
+                  info.index, model_.textures.size());
   const tinygltf::Texture& texture = model_.textures[std::size_t(info.index)];
   use.image = image_of(texture, what);
   double set = info.texCoord;
@@ -96,12 +98,12 @@ TextureUse GltfTextures::use(const tinygltf::TextureInfo& info, const std::strin
     set = number(extension->second, "texCoord", -1, set);
   }
   if (set != 0 && set != 1)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s reads TEXCOORD_%g (need 0 or 1)", what.c_str(), set);
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s uses TEXCOORD_%g (need 0 or 1)", what.c_str(), set);
   use.uv_set = std::uint8_t(set);
   if (texture.sampler >= 0) {
     if (std::size_t(texture.sampler) >= model_.samplers.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s names sampler %d (file has %zu)", what.c_str(), texture.sampler,
-                    model_.samplers.size());
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to sampler %d, but the file has only %zu", what.c_str(),
+                    texture.sampler, model_.samplers.size());
     const tinygltf::Sampler& sampler = model_.samplers[std::size_t(texture.sampler)];
     use.wrap_u = wrap_of(sampler.wrapS);
     use.wrap_v = wrap_of(sampler.wrapT);

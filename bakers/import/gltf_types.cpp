@@ -152,7 +152,7 @@ void require_allowed_type(const tinygltf::Model& model, int index, AccessorUse u
                 type_name(accessor).c_str(), element_name(row.element),
                 component_names(row.components).c_str(),
                 only_undeclared ? "; list KHR_mesh_quantization in extensionsUsed"
-                                : "; export the file again, by an exporter that follows glTF 2.0");
+                                : "; export the file again with an exporter that follows glTF 2.0");
 }
 
 }  // namespace nook::bake

@@ -51,13 +51,13 @@ Value named(const Json& object, const char* name, const std::array<std::pair<con
                    .append(name)
                    .append("\" is ")
                    .append(found->dump().substr(0, 60))
-                   .append(", which is not read"));
+                   .append(", which Nook does not read"));
 }
 
 CompressedView read_view(const Json& object, std::size_t view) {
   using Mode = CompressedView::Mode;
   using Filter = CompressedView::Filter;
-  if (!object.is_object()) refuse(view, "the extension is not an object");
+  if (!object.is_object()) refuse(view, "its extension is not an object");
   CompressedView out;
   out.view = view;
   out.buffer = number(object, "buffer", true, view);
@@ -86,32 +86,34 @@ void check_layout(const CompressedView& view) {
   const std::uint64_t stride = view.byte_stride;
   const bool is_index = view.mode != Mode::attributes;
   if (is_index ? stride != 2 && stride != 4 : stride == 0 || stride % 4 != 0 || stride > 256)
-    refuse(view.view, "byteStride " + std::to_string(stride) +
+    refuse(view.view, "byteStride is " + std::to_string(stride) +
                           (is_index ? " (need 2 or 4)" : " (need a multiple of 4 up to 256)"));
   if (view.mode == Mode::triangles && view.count % 3 != 0)
-    refuse(view.view, std::to_string(view.count) + " indices (need three per triangle)");
-  if (is_index && view.filter != Filter::none) refuse(view.view, "a filter for indices");
+    refuse(view.view, "it has " + std::to_string(view.count) + " indices (need three per triangle)");
+  if (is_index && view.filter != Filter::none)
+    refuse(view.view, "it has a filter, which is not allowed for indices");
   if ((view.filter == Filter::octahedral && stride != 4 && stride != 8) ||
       (view.filter == Filter::quaternion && stride != 8))
-    refuse(view.view, "byteStride " + std::to_string(stride) + " does not fit the filter");
+    refuse(view.view, "byteStride is " + std::to_string(stride) + ", which does not fit the filter");
   // The codec of attributes spends at least a bit on 8 bytes. The codecs of indices spend at least a byte on
   // a triangle or an index.
   const std::uint64_t most_per_byte = is_index ? 12 : 64, room = 16384;
   if (view.count > max_file_bytes ||
       view.count * stride > most_per_byte * std::min(view.byte_length, max_file_bytes) + room)
     refuse(view.view, std::to_string(view.count) + " elements of " + std::to_string(stride) +
-                          " bytes cannot be in " + std::to_string(view.byte_length) + " bytes");
+                          " bytes each cannot come from " + std::to_string(view.byte_length) + " bytes");
 }
 
 // Returns the compressed bytes and checks that they are inside their buffer.
 const unsigned char* source_of(const CompressedView& view, const tinygltf::Model& model) {
   if (view.buffer >= model.buffers.size())
-    refuse(view.view, "names buffer " + std::to_string(view.buffer) + " (file has " +
-                          std::to_string(model.buffers.size()) + ")");
+    refuse(view.view, "it refers to buffer " + std::to_string(view.buffer) + ", but the file has only " +
+                          std::to_string(model.buffers.size()));
   const std::size_t size = model.buffers[view.buffer].data.size();
   if (view.byte_offset > size || view.byte_length > size - view.byte_offset)
-    refuse(view.view, "ends at byte " + std::to_string(view.byte_offset) + " + " +
-                          std::to_string(view.byte_length) + " of a buffer of " + std::to_string(size));
+    refuse(view.view, "it starts at byte " + std::to_string(view.byte_offset) + " and has " +
+                          std::to_string(view.byte_length) + " bytes, but its buffer has only " +
+                          std::to_string(size));
   return model.buffers[view.buffer].data.data() + view.byte_offset;
 }
 
@@ -126,16 +128,16 @@ void decode(const CompressedView& view, const unsigned char* source, std::vector
                                                              : 0xd0;
   const int newest = view.mode == Mode::attributes ? 0 : 1;
   if (length == 0 || (source[0] & 0xf0) != codec)
-    refuse(view.view, "is damaged: the mark of its codec is missing");
+    refuse(view.view, "its data are damaged: they do not begin with the header of the codec");
   if ((source[0] & 0x0f) > newest)
-    refuse(view.view, "has version " + std::to_string(source[0] & 0x0f) +
-                          " of its codec, which is not read (need " + std::to_string(newest) +
+    refuse(view.view, "its data have version " + std::to_string(source[0] & 0x0f) +
+                          " of the codec, which Nook does not read (need " + std::to_string(newest) +
                           "); write it with gltfpack -c");
   const int fault =
       view.mode == Mode::attributes  ? meshopt_decodeVertexBuffer(out.data(), count, stride, source, length)
       : view.mode == Mode::triangles ? meshopt_decodeIndexBuffer(out.data(), count, stride, source, length)
                                      : meshopt_decodeIndexSequence(out.data(), count, stride, source, length);
-  if (fault != 0) refuse(view.view, "is damaged");
+  if (fault != 0) refuse(view.view, "its data are damaged");
   if (view.filter == Filter::octahedral) meshopt_decodeFilterOct(out.data(), count, stride);
   if (view.filter == Filter::quaternion) meshopt_decodeFilterQuat(out.data(), count, stride);
   if (view.filter == Filter::exponential) meshopt_decodeFilterExp(out.data(), count, stride);
@@ -168,10 +170,10 @@ void decompress_views(const std::vector<CompressedView>& views, tinygltf::Model&
     const std::uint64_t bytes = view.count * view.byte_stride;
     if (view.view >= model.bufferViews.size() || model.bufferViews[view.view].byteLength != bytes)
       refuse(view.view, "byteLength is not count times byteStride");
-    if (bytes > left) refuse(view.view, "the views have more than 2 GiB in all");
+    if (bytes > left) refuse(view.view, "the decompressed views have more than 2 GiB in all");
     left -= bytes;
     const unsigned char* source = source_of(view, model);
-    if (view.byte_length > unread) refuse(view.view, "shares its bytes with other views");
+    if (view.byte_length > unread) refuse(view.view, "it shares bytes with other compressed views");
     unread -= view.byte_length;
     tinygltf::Buffer buffer;
     buffer.data.resize(std::size_t(bytes));

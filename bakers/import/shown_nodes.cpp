@@ -66,11 +66,13 @@ std::vector<bool> nodes_of_scene(const tinygltf::Model& model, const NodeTree& n
   if (model.scenes.empty()) return std::vector<bool>(nodes.size(), true);
   const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
   if (static_cast<std::size_t>(scene) >= model.scenes.size())
-    throw Failure(NOOK_ERROR_BAD_FILE, "default scene is %d (file has %zu)", scene, model.scenes.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "the default scene is %d, but the file has only %zu", scene,
+                  model.scenes.size());
   std::vector<bool> is_root(nodes.size(), false);
   for (const int root : model.scenes[std::size_t(scene)].nodes) {
     if (root < 0 || static_cast<std::size_t>(root) >= nodes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "scene %d names node %d (file has %zu)", scene, root, nodes.size());
+      throw Failure(NOOK_ERROR_BAD_FILE, "scene %d refers to node %d, but the file has only %zu", scene, root,
+                    nodes.size());
     is_root[std::size_t(root)] = true;
   }
   return subtrees(nodes, [&](std::size_t n) { return is_root[n]; });
@@ -106,8 +108,8 @@ std::vector<int> levels_by_extension(const tinygltf::Model& model) {
       const tinygltf::Value& id = ids.Get(int(i));
       const int node = id.IsNumber() ? id.GetNumberAsInt() : -1;
       if (node < 0 || std::size_t(node) >= model.nodes.size())
-        throw Failure(NOOK_ERROR_BAD_FILE, "node %zu: %s names node %d (file has %zu)", n, levels_extension,
-                      node, model.nodes.size());
+        throw Failure(NOOK_ERROR_BAD_FILE, "node %zu: %s refers to node %d, but the file has only %zu", n,
+                      levels_extension, node, model.nodes.size());
       if (std::size_t(node) != n) level[std::size_t(node)] = int(i) + 1;
     }
   }
@@ -158,7 +160,7 @@ void require_matches(const tinygltf::Model& model, const std::vector<NodeState>&
       names.push_back(mesh_label(model, model.nodes[n].mesh));
     }
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "no node with a mesh and no mesh is named \"%s\", which is %s; the file has %s",
+                  "no node with a mesh and no mesh is named \"%s\", which you asked %s; the file has %s",
                   pattern.substr(0, 120).c_str(), purpose,
                   names.empty() ? "no mesh" : listed(std::move(names)).c_str());
   }
@@ -217,7 +219,8 @@ void note_levels(const tinygltf::Model& model, const std::vector<NodeState>& sta
   for (std::size_t n = 0; n < state.size(); ++n)
     if (state[n] == NodeState::in && level[n] > 0) taken.push_back(node_label(model, n));
   if (!taken.empty())
-    notes.push_back("every mesh is named as a lower level of detail; the finest was taken: " + listed(taken));
+    notes.push_back("every mesh has the name of a lower level of detail; the finest level was used: " +
+                    listed(taken));
 }
 
 void note_other_scenes(const tinygltf::Model& model, const std::vector<NodeState>& state,
@@ -250,10 +253,10 @@ void note_transparent(const tinygltf::Model& model, const std::vector<NodeState>
   }
   if (names.empty()) return;
   const std::string first = names.front();
-  notes.push_back(counted(names.size(),
-                          " mesh has a material of alpha 0, but darkens others as a solid one does: ",
-                          " meshes have materials of alpha 0, but darken others as solid ones do: ") +
-                  listed(names) + "; to leave out what nobody shall see: --without \"" + first + "\"");
+  notes.push_back(
+      counted(names.size(), " mesh has a material with alpha 0, but darkens other meshes like a solid mesh: ",
+              " meshes have materials with alpha 0, but darken other meshes like solid meshes: ") +
+      listed(names) + "; leave out a mesh that is never visible: --without \"" + first + "\"");
 }
 
 struct InstanceAttributes {
@@ -319,7 +322,7 @@ void check_instances(const tinygltf::Model& model, const std::vector<NodeState>&
     if (!attributes.is_used()) continue;
     if (model.nodes[n].skin >= 0)
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "%s repeats a mesh with a skin, which is not read; write the instances as nodes",
+                    "%s repeats a mesh with a skin, which Nook does not read; export each instance as a node",
                     attributes.what.c_str());
     const MeshSize size = size_of(model, model.nodes[n].mesh);
     instances += std::min(attributes.count, max_instances + 1);
@@ -327,8 +330,8 @@ void check_instances(const tinygltf::Model& model, const std::vector<NodeState>&
     corners += double(attributes.count) * double(size.corners);
     if (instances > max_instances || vertices > double(max_file_vertices) || corners > 3.0 * max_triangles)
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "%s repeats its mesh too often: %zu instances of %zu vertices (need at most %zu "
-                    "instances, %zu vertices and %zu triangles in all); bake fewer",
+                    "%s repeats its mesh too often: %zu instances of %zu vertices each (need at most %zu "
+                    "instances, %zu vertices and %zu triangles in the whole file); leave some out",
                     attributes.what.c_str(), attributes.count, size.vertices, max_instances,
                     max_file_vertices, max_triangles);
   }
@@ -344,8 +347,8 @@ States states_of(const tinygltf::Model& model, const NodeTree& nodes, const Mesh
   const std::vector<bool> in_scene = nodes_of_scene(model, nodes);
   for (std::size_t n = 0; n < nodes.size(); ++n)
     if (in_scene[n] && model.nodes[n].mesh >= 0 && std::size_t(model.nodes[n].mesh) >= model.meshes.size())
-      throw Failure(NOOK_ERROR_BAD_FILE, "node %zu names mesh %d (file has %zu)", n, model.nodes[n].mesh,
-                    model.meshes.size());
+      throw Failure(NOOK_ERROR_BAD_FILE, "node %zu refers to mesh %d, but the file has only %zu", n,
+                    model.nodes[n].mesh, model.meshes.size());
   const auto has_mesh = [&](std::size_t n) {
     return model.nodes[n].mesh >= 0 && std::size_t(model.nodes[n].mesh) < model.meshes.size();
   };
@@ -370,8 +373,8 @@ States states_of(const tinygltf::Model& model, const NodeTree& nodes, const Mesh
     else if (selection.only.empty() && out.level[n] > 0)
       state = NodeState::lower_level;
   }
-  require_matches(model, out.state, selection.only, "to be kept (--mesh)");
-  require_matches(model, out.state, selection.without, "to be left out (--without)");
+  require_matches(model, out.state, selection.only, "to keep (--mesh)");
+  require_matches(model, out.state, selection.without, "to leave out (--without)");
   keep_finest(out.level, out.state);
   return out;
 }
@@ -470,7 +473,8 @@ std::vector<Affine> mesh_instances(const tinygltf::Model& model, std::size_t nod
     for (double& q : trs.rotation) q /= std::sqrt(square);
     const Affine place = to_affine(trs);
     if (!is_finite(place))
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s: instance %zu is not finite or has a zero quaternion",
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%s: instance %zu has a transform that is not finite, or a rotation of length 0",
                     attributes.what.c_str(), i);
     out.push_back(place);
   }

@@ -38,7 +38,7 @@ void append_triangles(const tinygltf::Model& model, const tinygltf::Primitive& p
     index = read_integers(model, primitive.indices, 1, what + ".indices").value;
     for (const std::uint32_t i : index)
       if (i >= vertices)
-        throw Failure(NOOK_ERROR_BAD_FILE, "%s has index %u (it has %zu vertices)", what.c_str(), i,
+        throw Failure(NOOK_ERROR_BAD_FILE, "%s has index %u, but only %zu vertices", what.c_str(), i,
                       vertices);
   } else {
     for (std::uint32_t i = 0; i < vertices; ++i) index.push_back(i);
@@ -49,7 +49,7 @@ void append_triangles(const tinygltf::Model& model, const tinygltf::Primitive& p
   const int mode = mode_of(primitive);
   if (mode == TINYGLTF_MODE_TRIANGLES) {
     if (n % 3 != 0)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%s: a triangle list of %zu indices (need three per triangle)",
+      throw Failure(NOOK_ERROR_BAD_FILE, "%s: its triangle list has %zu indices (need three per triangle)",
                     what.c_str(), n);
     for (std::size_t i = 0; i + 2 < n; i += 3) out.push_back({index[i], index[i + 1], index[i + 2]});
     return;

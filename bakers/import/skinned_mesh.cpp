@@ -107,7 +107,7 @@ void refuse_any(std::size_t count, const char* what, nook_result code, Fault fau
   std::size_t faults = 0;
   for (std::size_t i = 0; i < count; ++i)
     if (fault(i) && faults++ == 0) first = i;
-  if (faults > 0) throw Failure(code, "%s: %zu of %zu, the first is number %zu", what, faults, count, first);
+  if (faults > 0) throw Failure(code, "%s: %zu of %zu, the first has index %zu", what, faults, count, first);
 }
 
 bool is_orthonormal(const Mat3x4& a) {
@@ -137,7 +137,7 @@ void validate_bones(const std::vector<Bone>& bones, nook_result code) {
     const float* m = bones[i].frame_rest.m;
     if (!is_place({m[3], m[7], m[11]}))
       throw Failure(
-          code, "bone %zu (\"%s\") has its joint out of range (got %g %g %g, need finite metres up to 1e6)",
+          code, "the joint of bone %zu (\"%s\") is out of range (got %g %g %g, need finite metres up to 1e6)",
           i, bones[i].name.c_str(), double(m[3]), double(m[7]), double(m[11]));
     if (!is_orthonormal(bones[i].frame_rest))
       throw Failure(code,
@@ -195,12 +195,14 @@ void validate_primitives(const std::vector<Primitive>& primitives, std::size_t f
   std::size_t next = 0;
   for (std::size_t p = 0; p < primitives.size(); ++p) {
     if (primitives[p].first_vertex != next)
-      throw Failure(code, "primitive %zu starts at vertex %u (need %zu: all primitives in a row)", p,
-                    primitives[p].first_vertex, next);
+      throw Failure(
+          code,
+          "primitive %zu starts at vertex %u (need %zu, because primitives follow each other without gaps)",
+          p, primitives[p].first_vertex, next);
     next += primitives[p].vertex_count;
   }
   if (next != file_vertices)
-    throw Failure(code, "primitives hold %zu vertices (mesh has %zu)", next, file_vertices);
+    throw Failure(code, "the primitives have %zu vertices in all, but the mesh has %zu", next, file_vertices);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ namespace {
 
 Vec3 read_colour(const std::vector<double>& rgb, double most, std::size_t material, const char* what) {
   if (rgb.size() < 3)
-    throw Failure(NOOK_ERROR_BAD_FILE, "material %zu has a %s of %zu numbers (need 3 or more)", material,
+    throw Failure(NOOK_ERROR_BAD_FILE, "material %zu has a %s with %zu numbers (need 3 or more)", material,
                   what, rgb.size());
   for (std::size_t i = 0; i < 3; ++i)
     if (!(rgb[i] >= 0 && rgb[i] <= max_emission))
@@ -76,7 +76,7 @@ void read_uv(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
   const std::string name = "TEXCOORD_" + std::to_string(use.uv_set);
   const int accessor = attribute(primitive, name);
   if (accessor < 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s has no %s, which the texture of material %d reads", what.c_str(),
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s has no %s, but the texture of material %d needs it", what.c_str(),
                   name.c_str(), primitive.material);
   require_allowed_type(model, accessor, AccessorUse::texture_coordinates, what + "." + name);
   const std::size_t count = element_count(model, accessor, what + "." + name);
@@ -118,8 +118,8 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
   }
   const auto none = std::uint32_t(scene.surface.size() - 1);
   if (primitive.material >= int(none))
-    throw Failure(NOOK_ERROR_BAD_FILE, "%s names material %d (file has %u)", what.c_str(), primitive.material,
-                  none);
+    throw Failure(NOOK_ERROR_BAD_FILE, "%s refers to material %d, but the file has only %u", what.c_str(),
+                  primitive.material, none);
   const std::uint32_t index = primitive.material < 0 ? none : std::uint32_t(primitive.material);
   scene.triangle_surface.resize(scene.triangle.size(), index);
   if (scene.image.empty()) return;

@@ -173,7 +173,7 @@ void make_missing(Building& building, std::vector<std::string>& warnings) {
   }
   if (opposite > 0)
     warnings.push_back(std::to_string(opposite).append(
-        " vertices have a TANGENT whose w contradicts their texture coordinates; it was kept"));
+        " vertices have a TANGENT whose w contradicts their texture coordinates; the TANGENT was kept"));
 }
 
 ImportedSurface import_document(std::span<const std::byte> bytes, const FileAccess& files,
@@ -326,7 +326,7 @@ std::vector<Tangent> surface_tangents(const SurfaceMesh& mesh, std::vector<std::
                   is_mirrored ? -1.0f : 1.0f};
   }
   warn(warnings, degenerate,
-       " triangles have no area, or none in their texture coordinates, and do not count for tangents");
+       " triangles have no area in space or in texture coordinates, and were not used for tangents");
   warn(
       warnings, shared,
       " vertices are shared by mirrored and unmirrored texture coordinates; split them for correct tangents");

@@ -337,10 +337,12 @@ FileMesh to_file_mesh(const MeshArrays& arrays, nook_result code) {
   const std::size_t vertices = arrays.position.size();
   if (arrays.influences == 0 || arrays.joint.size() != vertices * arrays.influences ||
       arrays.weight.size() != arrays.joint.size())
-    throw Failure(code, "%zu joints and %zu weights for %zu vertices with %zu influences each",
+    throw Failure(code,
+                  "got %zu joints and %zu weights for %zu vertices with %zu influences each; need one joint "
+                  "and one weight for each influence",
                   arrays.joint.size(), arrays.weight.size(), vertices, arrays.influences);
   if (arrays.index.size() % 3 != 0)
-    throw Failure(code, "%zu indices (need three per triangle)", arrays.index.size());
+    throw Failure(code, "got %zu indices (need three per triangle)", arrays.index.size());
   FileMesh mesh;
   mesh.bones = arrays.bones;
   mesh.position.assign(arrays.position.begin(), arrays.position.end());

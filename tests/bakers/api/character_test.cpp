@@ -288,13 +288,13 @@ TEST_CASE("faults of a mesh in memory are named") {
   SECTION("a position that no model can hold") {
     d.t.positions[40] = -1.1e6f;
     CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
-    CHECK(message_has("position that is not finite or beyond 1e6 m: 1 of 180, the first is number 13"));
+    CHECK(message_has("position that is not finite or beyond 1e6 m: 1 of 180, the first has index 13"));
   }
   SECTION("a joint that no model can hold") {
     d.t.frames[12 + 7] = 1e18f;
     CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
-    CHECK(message_has("bone 1"));
-    CHECK(message_has("has its joint out of range (got 0.5 1e+18 0"));
+    CHECK(message_has("the joint of bone 1"));
+    CHECK(message_has("is out of range (got 0.5 1e+18 0"));
   }
   SECTION("an index out of range") {
     d.t.indices[5] = tube_vertices;

@@ -183,7 +183,7 @@ TEST_CASE("a vertex without weights follows its own first joint") {
   Tube odd = long_tube(200);
   odd.weight[4 * last] = 0;
   odd.joint[4 * last] = 9;
-  contains(failure_of(tube_file(odd)), "has no weights and names joint 9 (skin has 2)");
+  contains(failure_of(tube_file(odd)), "has no weights and refers to joint 9, but the skin has only 2");
 }
 
 TEST_CASE("a fault that can be read in only one way is read with a warning") {
@@ -193,7 +193,7 @@ TEST_CASE("a fault that can be read in only one way is read with a warning") {
   SECTION("a matrix beside translation") {
     nodes[3]["matrix"] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
     nodes[3]["translation"] = {5, 0, 0};
-    CHECK(warnings_with(file, "1 nodes have a matrix beside translation, rotation or scale") == 1);
+    CHECK(warnings_with(file, "1 nodes have a matrix as well as a translation, rotation or scale") == 1);
   }
   SECTION("a rotation that is not a unit quaternion") {
     nodes[0]["rotation"] = {0, 0, 0, 2};
@@ -225,7 +225,7 @@ TEST_CASE("a fault that can be read in only one way is read with a warning") {
   SECTION("bounds that do not match") {
     file.document["accessors"][0]["min"] = {-1, 0, -1};
     file.document["accessors"][0]["max"] = {1, 5, 1};
-    CHECK(warnings_with(file, "1 accessors of positions have min and max that do not match") == 1);
+    CHECK(warnings_with(file, "1 accessors of positions have a min and max that do not match") == 1);
   }
   CHECK(load(file).warnings.size() == before + 1);
 }
@@ -293,7 +293,7 @@ TEST_CASE("names of files are decoded as they are written, and links stay inside
       write(fs::path("inner") / name, data.data(), data.size());
       CHECK(import(uri) == "");
       fs::remove(folder / "inner" / name);
-      contains(import(uri), std::string("names \"") + name + "\", which is not there");
+      contains(import(uri), std::string("refers to \"") + name + "\", which does not exist");
     }
   }
   SECTION("links") {

@@ -66,7 +66,9 @@ TEST_CASE("the demands of a small file are bounded before it is read") {
       primitive["attributes"]["JOINTS_" + std::to_string(set)] = joints;
       primitive["attributes"]["WEIGHTS_" + std::to_string(set)] = weights;
     }
-    CHECK(contains(failure_of(file), "too many joints: 100 sets for 4000000 vertices (need at most 16 sets"));
+    CHECK(contains(
+        failure_of(file),
+        "too many joints: 100 sets of joints and weights for 4000000 vertices (need at most 16 sets"));
   }
   SECTION("elements of all sets of joints") {
     const std::size_t vertices = 9'000'000;
@@ -75,7 +77,7 @@ TEST_CASE("the demands of a small file are bounded before it is read") {
       primitive["attributes"]["JOINTS_" + std::to_string(set)] = add_zeros(file, vertices, "VEC4", 5121);
       primitive["attributes"]["WEIGHTS_" + std::to_string(set)] = add_zeros(file, vertices, "VEC4", 5126);
     }
-    CHECK(contains(failure_of(file), "too many joints: 4 sets for 9000000 vertices"));
+    CHECK(contains(failure_of(file), "too many joints: 4 sets of joints and weights for 9000000 vertices"));
   }
   SECTION("inverse bind matrices") {
     file.document["skins"][0]["inverseBindMatrices"] = add_zeros(file, 1 << 24, "MAT4", 5126);
@@ -102,7 +104,7 @@ TEST_CASE("the demands of a small file are bounded before it is read") {
     std::string text = R"({"asset":{"version":"2.0","extras":[0)";
     for (int i = 0; i < (1 << 24); ++i) text += ",0";
     const std::vector<std::byte> bytes = GltfBuilder::bytes_of(text + "]}}");
-    CHECK(contains(failure_when([&] { import_gltf(bytes); }), "JSON of more than 16777216 values"));
+    CHECK(contains(failure_when([&] { import_gltf(bytes); }), "JSON has more than 16777216 values"));
   }
   // Positions of 9 million vertices are 108 MB, read for the sake of their count, and the text above is
   // copied.
@@ -158,7 +160,7 @@ TEST_CASE("only regular files in the file's own folder are read") {
     write_gltf(folder / "inner/tube.gltf", file, "tube.bin");
     const fs::path before = fs::current_path();
     fs::current_path(folder / "");
-    CHECK(contains(import("inner/tube.gltf"), "\"tube.bin\", which is not there"));
+    CHECK(contains(import("inner/tube.gltf"), "\"tube.bin\", which does not exist"));
     fs::current_path(before);
   }
   SECTION("a pipe, which would wait for a writer") {
@@ -187,7 +189,7 @@ TEST_CASE("extensions that a file requires are read or refused by name") {
   Json& required = file.document["extensionsRequired"];
   SECTION("unknown ones") {
     required = {"ACME_teapots", "KHR_texture_transform", "ACME_spoons"};
-    CHECK(contains(failure_of(file), "requires ACME_teapots, ACME_spoons, which is not read"));
+    CHECK(contains(failure_of(file), "requires ACME_teapots, ACME_spoons, which Nook does not read"));
   }
 #if !NOOK_DRACO
   SECTION("Draco") {
@@ -229,7 +231,7 @@ TEST_CASE("morph targets stand at their default weights") {
   mesh["weights"] = {0.5, 2.0};
   const ImportedCharacter morphed = load(file);
   CHECK(std::ranges::any_of(morphed.warnings, [](const std::string& text) {
-    return text.find("not changes of morph weights") != std::string::npos;
+    return text.find("not changes of the morph weights") != std::string::npos;
   }));
   CHECK(has_warning(morphed.warnings, "1 meshes have morph targets with default weights"));
   for (std::size_t v = 0; v < Tube::file_vertices; ++v) {
@@ -245,7 +247,7 @@ TEST_CASE("morph targets stand at their default weights") {
   CHECK(distance(scene.position[3], vertex(plain, 3) + Vec3{0, 1, 0}) < 1e-6f);
 
   file.document["nodes"][3]["weights"] = {1.0, 0.0, 1.0};
-  CHECK(contains(failure_of(file), "has 2 morph targets and 3 default weights"));
+  CHECK(contains(failure_of(file), "has 2 morph targets but 3 default weights"));
   file.document["nodes"][3].erase("weights");
   mesh["primitives"][0]["targets"][0]["POSITION"] = file.add_floats({0, 1, 0}, "VEC3");
   CHECK(contains(failure_of(file), "morph target 0 moves 1 vertices (primitive has 47)"));

@@ -172,7 +172,7 @@ TEST_CASE("a file without skins and clips is a rigid prop with a bone for each r
   file.document["scenes"][0]["nodes"].push_back(file.document["nodes"].size());
   file.document["nodes"].push_back({{"name", "lid"}, {"mesh", mesh}, {"translation", {0, 3, 0}}});
   const ImportedCharacter prop = load(file);
-  CHECK(has_warning(prop.warnings, "rigid prop of 2 bones"));
+  CHECK(has_warning(prop.warnings, "rigid prop with 2 bones"));
   REQUIRE(prop.mesh.bones.size() == 2);
   CHECK(prop.mesh.primitives.size() == 2);
   const std::uint32_t corner = prop.mesh.file_to_welded[Tube::file_vertices];

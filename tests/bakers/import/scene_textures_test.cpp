@@ -105,11 +105,12 @@ TEST_CASE("textures that cannot be read are refused by name") {
     const char* message;
   } faults[] = {
       {"/images/0", {{"uri", "nowhere.png"}}, "image 0 (\"nowhere.png\") cannot be read"},
-      {"/textures/1/source", 5, "baseColorTexture names image 5 (file has 2)"},
+      {"/textures/1/source", 5, "baseColorTexture refers to image 5, but the file has only 2"},
       {"/textures/1", {{"extensions", {{"EXT_texture_webp", {{"source", 0}}}}}}, "only in a glTF extension"},
-      {"/textures/1/sampler", 3, "names sampler 3 (file has 1)"},
-      {"/materials/1/emissiveTexture/index", 7, "emissiveTexture is texture 7 (file has 2)"},
-      {"/materials/1/pbrMetallicRoughness/baseColorTexture/texCoord", 2, "reads TEXCOORD_2"},
+      {"/textures/1/sampler", 3, "refers to sampler 3, but the file has only 1"},
+      {"/materials/1/emissiveTexture/index", 7,
+       "emissiveTexture refers to texture 7, but the file has only 2"},
+      {"/materials/1/pbrMetallicRoughness/baseColorTexture/texCoord", 2, "uses TEXCOORD_2"},
       {"/materials/1/emissiveTexture/extensions/KHR_texture_transform/scale", {1e60, 1}, "not finite"},
       {"/accessors/2/count", 2, "has 2 TEXCOORD_1 (need one for each of 3 vertices)"},
       {"/accessors/1/type", "VEC3", "TEXCOORD_0"},
@@ -122,7 +123,7 @@ TEST_CASE("textures that cannot be read are refused by name") {
   }
   GltfBuilder file = textured_triangle();
   file.document["meshes"][0]["primitives"][0]["attributes"].erase("TEXCOORD_1");
-  CHECK(failure_of(file).find("has no TEXCOORD_1, which the texture of material 1 reads") !=
+  CHECK(failure_of(file).find("has no TEXCOORD_1, but the texture of material 1 needs it") !=
         std::string::npos);
 }
 

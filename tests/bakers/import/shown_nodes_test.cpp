@@ -162,7 +162,7 @@ TEST_CASE("if a model has only lower levels of detail, the finest of them is imp
   add_body(file, "Body_LOD3");
   const ImportedCharacter shown = load(file);
   CHECK(shown.node_of_primitive == std::vector<std::uint32_t>{4});
-  CHECK(has_warning(shown.warnings, "the finest was taken: \"Body_LOD1\""));
+  CHECK(has_warning(shown.warnings, "the finest level was used: \"Body_LOD1\""));
   CHECK(has_warning(shown.warnings, "2 meshes are lower levels of detail"));
 }
 
@@ -197,10 +197,10 @@ TEST_CASE("meshes are chosen by the names of nodes and meshes") {
   const auto message = [&](const MeshSelection& selection) {
     return failure_when(NOOK_ERROR_INVALID_ARGUMENT, [&] { with(selection); });
   };
-  CHECK(
-      contains(message({{"Axe"}, {}}),
-               "is named \"Axe\", which is to be kept (--mesh); the file has \"Body_LOD1\", \"Sword_Long\""));
-  CHECK(contains(message({{}, {"body", "Axe"}}), "\"Axe\", which is to be left out (--without)"));
+  CHECK(contains(
+      message({{"Axe"}, {}}),
+      "is named \"Axe\", which you asked to keep (--mesh); the file has \"Body_LOD1\", \"Sword_Long\""));
+  CHECK(contains(message({{}, {"body", "Axe"}}), "\"Axe\", which you asked to leave out (--without)"));
   for (int i = 0; i < 12; ++i) add_body(file, "Part" + std::to_string(i));
   CHECK(contains(message({{"Axe"}, {}}), " and 9 more"));
 
@@ -272,10 +272,10 @@ TEST_CASE("instances that cannot be read are refused by name") {
   CHECK(contains(message(),
                  "node 1 (\"floor\"): EXT_mesh_gpu_instancing has attributes for 2 and for 1 instances"));
   attributes["SCALE"] = 99;
-  CHECK(contains(message(), "EXT_mesh_gpu_instancing.SCALE names accessor 99"));
+  CHECK(contains(message(), "EXT_mesh_gpu_instancing.SCALE refers to accessor 99"));
   attributes.erase("SCALE");
   attributes["ROTATION"] = file.add_floats({0, 0, 0, 1, 0, 0, 0, 0}, "VEC4");
-  CHECK(contains(message(), "instance 1 is not finite or has a zero quaternion"));
+  CHECK(contains(message(), "instance 1 has a transform that is not finite, or a rotation of length 0"));
   attributes.erase("ROTATION");
   // An accessor without a buffer view holds zeros and costs nothing.
   file.document["accessors"].push_back({{"componentType", 5126}, {"count", 3'000'000}, {"type", "VEC3"}});
@@ -413,7 +413,7 @@ TEST_CASE("hulls that draw outlines are found, and linings and rooms are not") {
   }
   const std::vector<std::string> warnings = import_static_scene(file.glb()).warnings;
   CHECK(std::size_t(std::count_if(warnings.begin(), warnings.end(), [](const std::string& text) {
-          return contains(text, "turns its faces inside");
+          return contains(text, "its faces turned inwards");
         })) == hulls);
   if (hulls > 0) CHECK(has_warning(warnings, named));
   CHECK(coincident(file) == 0);
@@ -426,5 +426,5 @@ TEST_CASE("where nodes share a name, the names of their meshes replace it") {
   file.document["nodes"][1]["name"] = "body";
   CHECK(has_warning(import_static_scene(file.glb()).warnings, "--without \"copy mesh\""));
   file.document["meshes"][1]["name"] = "body mesh";
-  CHECK(has_warning(import_static_scene(file.glb()).warnings, "a name of its own"));
+  CHECK(has_warning(import_static_scene(file.glb()).warnings, "a unique name"));
 }

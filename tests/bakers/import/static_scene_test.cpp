@@ -72,7 +72,7 @@ TEST_CASE("triangles of a static scene carry their material's colours") {
   CHECK(scene.surface[2].base_colour == Vec3{0.8f, 0.8f, 0.8f});
 
   primitives[0]["material"] = 2;
-  CHECK(failure_of(file).find("names material 2 (file has 2)") != std::string::npos);
+  CHECK(failure_of(file).find("refers to material 2, but the file has only 2") != std::string::npos);
   primitives[0]["material"] = 0;
   file.document["materials"][0]["pbrMetallicRoughness"]["baseColorFactor"][1] = -1;
   CHECK(failure_of(file).find("material 0 has a baseColorFactor") != std::string::npos);

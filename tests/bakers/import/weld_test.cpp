@@ -131,16 +131,16 @@ TEST_CASE("faults are named with their number and the first place") {
     mesh.position[2].y = NAN;
     mesh.position[4].x = INFINITY;
     CHECK(contains(failure_of(mesh),
-                   "position that is not finite or beyond 1e6 m: 2 of 6, the first is number 2"));
+                   "position that is not finite or beyond 1e6 m: 2 of 6, the first has index 2"));
   }
   SECTION("no weight at all") {
     mesh.weights[1] = {};
     mesh.weights[5] = {};
-    CHECK(contains(failure_of(mesh), "weights are all zero: 2 of 6, the first is number 1"));
+    CHECK(contains(failure_of(mesh), "weights are all zero: 2 of 6, the first has index 1"));
   }
   SECTION("weights that were not normalised") {
     mesh.weights[1].weight[0] = 0.9f;
-    CHECK(contains(failure_of(mesh), "sum 1: 1 of 6, the first is number 1"));
+    CHECK(contains(failure_of(mesh), "sum 1: 1 of 6, the first has index 1"));
   }
   SECTION("negative weights") {
     mesh.weights[1].weight[1] = -0.5f;
@@ -148,11 +148,11 @@ TEST_CASE("faults are named with their number and the first place") {
   }
   SECTION("bone indices") {
     mesh.weights[3].bone[1] = 2;
-    CHECK(contains(failure_of(mesh), "bone index out of range: 1 of 6, the first is number 3"));
+    CHECK(contains(failure_of(mesh), "bone index out of range: 1 of 6, the first has index 3"));
   }
   SECTION("vertex indices") {
     mesh.triangle[1][2] = 6;
-    CHECK(contains(failure_of(mesh), "vertex index out of range: 1 of 2, the first is number 1"));
+    CHECK(contains(failure_of(mesh), "vertex index out of range: 1 of 2, the first has index 1"));
   }
   SECTION("no triangles") {
     mesh.triangle.clear();
