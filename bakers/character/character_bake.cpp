@@ -26,19 +26,20 @@ namespace {
 
 void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSettings& s) {
   const auto refuse = [](const char* what, std::size_t got, const char* need) {
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s out of range (got %zu, need %s)", what, got, need);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of %s is out of range (got %zu, need %s)", what,
+                  got, need);
   };
-  if (poses.empty()) refuse("pose count", 0, "at least 1");
+  if (poses.empty()) refuse("poses", 0, "at least 1");
   if (s.spheres < 1 || s.spheres > 1024) refuse("spheres", s.spheres, "1 to 1024");
   if (s.key_points < 1 || s.key_points > 4096) refuse("key points", s.key_points, "1 to 4096");
   if (s.entries < 1 || s.entries > 8) refuse("entries", s.entries, "1 to 8");
   if (s.rays < 1 || s.rays > 65536) refuse("rays", s.rays, "1 to 65536");
   if (s.steps > 10'000'000) refuse("steps", s.steps, "at most 10,000,000");
   if (!(s.kernel.gamma >= 1 && s.kernel.gamma <= 8))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "gamma out of range (got %g, need 1 to 8)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "gamma is out of range (got %g, need 1 to 8)",
                   double(s.kernel.gamma));
   if (!(s.saturation >= 0 && s.saturation <= max_saturation))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "saturation out of range (got %g, need 0 to %g)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "saturation is out of range (got %g, need 0 to %g)",
                   double(s.saturation), double(max_saturation));
   for (std::size_t p = 0; p < poses.size(); ++p) {
     if (poses[p].size() != mesh.bones.size())
@@ -47,7 +48,7 @@ void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSetti
     for (const Mat3x4& m : poses[p])
       if (!is_pose_matrix(m))
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "pose %zu holds a matrix that is not finite or beyond 1e9 m or a scale of 1e6", p);
+                      "pose %zu has a matrix that is not finite, or goes beyond 1e9 m or a scale of 1e6", p);
   }
 }
 

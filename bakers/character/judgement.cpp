@@ -52,7 +52,7 @@ const char* text_of(JudgedPoses::Source source) {
     case JudgedPoses::Source::other_clips:
       return "poses of clips that were not fitted";
     case JudgedPoses::Source::between_frames:
-      return "poses between the fitted ones of its clips";
+      return "poses between the fitted poses of its clips";
     case JudgedPoses::Source::turned:
       return "turns";
     case JudgedPoses::Source::recorded:
@@ -384,10 +384,11 @@ std::string cause(const Judgement& j) {
 
 std::string cure(const Judgement& j) {
   std::string text = j.source == JudgedPoses::Source::between_frames
-                         ? "take --preset production"
+                         ? "use --preset production"
                          : "fit the clips that the game plays (--poses all), or calibrate to recorded poses "
                            "(--calibrate)";
-  if (const JudgedPart* mesh = outlying_mesh(j)) text += ", or leave it out (--without " + mesh->name + ")";
+  if (const JudgedPart* mesh = outlying_mesh(j))
+    text += ", or leave this mesh out (--without " + mesh->name + ")";
   if (j.torn_edges > j.torn_by_clips + torn_limit || !j.bones_without_role.empty())
     text += ", or name the roles of the bones (--rig)";
   return text;

@@ -79,8 +79,10 @@ template <std::size_t N>
 std::size_t index_of(const std::array<const char*, N>& names, const std::string& name) {
   const auto found = std::find(names.begin(), names.end(), name);
   if (found == names.end())
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the recipe says \"%s\", which this version does not know; bake it again", name.c_str());
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "the recipe of the model contains \"%s\", which this version does not know; bake the model again",
+        name.c_str());
   return std::size_t(found - names.begin());
 }
 
@@ -110,12 +112,14 @@ std::string clip_bits(const ImportedCharacter& character, const std::vector<std:
 std::vector<std::size_t> clips_of_bits(const ImportedCharacter& character, const std::string& bits) {
   const std::vector<std::size_t> order = clips_by_name(character);
   if (bits.size() != (order.size() + 3) / 4)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the model was baked from a file with other clips; bake it again");
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the model was baked from a file with other clips; bake the model again");
   std::vector<std::size_t> clips;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const std::size_t digit = std::string("0123456789abcdef").find(bits[i / 4]);
     if (digit == std::string::npos)
-      throw Failure(NOOK_ERROR_BAD_FILE, "the recipe's clip list is damaged; bake it again");
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "the clip list in the model's recipe is damaged; bake the model again");
     if (digit >> (i % 4) & 1) clips.push_back(order[i]);
   }
   return clips;
@@ -198,11 +202,10 @@ bool makes_same_poses(const ImportedCharacter& character, const Recipe& recipe) 
 
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe) {
   if (!makes_same_poses(character, recipe) && recipe.auto_poses + recipe.variant_poses > 0)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "the model's training poses cannot be made again by this version (got generation %d, need %d); "
-        "bake it again",
-        recipe.generation, pose_generation);
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "this version cannot make the model's training poses again (got generation %d, need %d); "
+                  "bake the model again",
+                  recipe.generation, pose_generation);
   std::vector<Pose> poses;
   const std::vector<float> area = vertex_areas(character.mesh, character.mesh.position);
   const auto add = [&](std::vector<Pose> more) {
@@ -269,7 +272,8 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
     r.meshes = meshes_of(j);
     if (j.contains("clips")) {
       if (j.at("clip_names") != hash_of_names(character))
-        throw Failure(NOOK_ERROR_BAD_FILE, "the model was baked from a file with other clips; bake it again");
+        throw Failure(NOOK_ERROR_BAD_FILE,
+                      "the model was baked from a file with other clips; bake the model again");
       r.clips = clips_of_bits(character, j.at("clips"));
     }
     r.samples_per_clip = j.at("samples_per_clip");
@@ -299,7 +303,8 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
   } catch (const Failure&) {
     throw;
   } catch (const std::exception& e) {
-    throw Failure(NOOK_ERROR_BAD_FILE, "the model's recipe cannot be read (%s); bake it again", e.what());
+    throw Failure(NOOK_ERROR_BAD_FILE, "the model's recipe cannot be read (%s); bake the model again",
+                  e.what());
   }
 }
 

@@ -28,7 +28,7 @@ std::uint32_t bone_named(const SkinnedMesh& mesh, const std::string& name) {
   std::int64_t found = -1;
   for (std::size_t b = 0; b < mesh.bones.size(); ++b) {
     if (mesh.bones[b].name != name) continue;
-    if (found >= 0) refuse("two bones are named \"" + name + "\"; give them names of their own");
+    if (found >= 0) refuse("two bones are named \"" + name + "\"; give each bone its own name");
     found = std::int64_t(b);
   }
   if (found < 0)
@@ -55,7 +55,7 @@ Side side_of(const std::string& bone, const Json& value) {
 
 std::int32_t limb_of(const std::string& bone, const Json& value) {
   if (!value.is_number_integer() || value < -1 || value > most_limbs)
-    refuse("bone \"" + bone + "\": limb is not a number of a limb (got " + value.dump() +
+    refuse("bone \"" + bone + "\": limb is not the number of a limb (got " + value.dump() +
            ", need -1 for none, or 0 to " + std::to_string(most_limbs) + ")");
   return value.get<std::int32_t>();
 }
@@ -63,7 +63,8 @@ std::int32_t limb_of(const std::string& bone, const Json& value) {
 std::int32_t parent_of(const SkinnedMesh& mesh, const std::string& bone, const Json& value) {
   if (value.is_null()) return -1;
   if (!value.is_string())
-    refuse("bone \"" + bone + "\": parent is not a name (got " + value.dump() + "); give a bone or null");
+    refuse("bone \"" + bone + "\": parent is not a name (got " + value.dump() +
+           "); give the name of a bone, or null");
   return std::int32_t(bone_named(mesh, value.get<std::string>()));
 }
 
@@ -95,7 +96,8 @@ void refuse_rings(const SkinnedMesh& mesh, const RigCorrections& corrections) {
     std::size_t steps = 0;
     for (std::int32_t at = std::int32_t(c.bone); at >= 0; at = parent[std::size_t(at)])
       if (++steps > parent.size())
-        refuse("bone \"" + mesh.bones[c.bone].name + "\" hangs on itself by its parents; break the ring");
+        refuse("bone \"" + mesh.bones[c.bone].name +
+               "\" is its own ancestor; correct the parents in the rig file");
   }
 }
 
@@ -106,13 +108,13 @@ RigCorrections read_rig(const SkinnedMesh& mesh, std::string_view text) {
   try {
     j = Json::parse(text);
   } catch (const std::exception& e) {
-    refuse(std::string("not JSON (") + e.what() + ")");
+    refuse(std::string("the file is not JSON (") + e.what() + ")");
   }
   if (!j.is_object() || !j.contains("bones") || !j.at("bones").is_object())
-    refuse("no object \"bones\"; see `docs/character.md`, Rig files");
+    refuse("the file has no object \"bones\"; see `docs/character.md`, Rig files");
   for (const auto& [key, value] : j.items())
     if (key != "bones") refuse("unknown key \"" + key + "\" (need bones)");
-  if (j.at("bones").empty()) refuse("\"bones\" names no bone; name at least one");
+  if (j.at("bones").empty()) refuse("\"bones\" is empty; name at least one bone");
   RigCorrections corrections;
   for (const auto& [bone, entries] : j.at("bones").items())
     corrections.push_back(correction_of(mesh, bone, entries));

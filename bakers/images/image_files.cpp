@@ -53,8 +53,9 @@ void check_image_size(const char* what, int width, int height, std::size_t max_t
   // colour.
   constexpr std::uintmax_t max_texels_per_byte = std::uintmax_t{1} << 14;
   if (width < 1 || height < 1 || std::size_t(width) > max_texels / std::size_t(height))
-    throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %d x %d texels (need 1 to %zu); make it smaller", what,
-                  width, height, max_texels);
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%.250s has %d x %d texels (need 1 to %zu texels in all); make it smaller", what, width,
+                  height, max_texels);
   const std::uintmax_t texels = std::uintmax_t(width) * std::uintmax_t(height);
   if (texels / max_texels_per_byte > file_bytes)
     throw Failure(NOOK_ERROR_BAD_FILE,
@@ -126,17 +127,17 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
   if (!file) return;
   const auto at = std::uintmax_t(file.tellg());
   if (size > file_bytes - at)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, and %ju follow", what,
-                  name.c_str(), size, file_bytes - at);
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%.250s is a damaged EXR file: its attribute \"%.60s\" should have %u bytes, but only %ju follow",
+        what, name.c_str(), size, file_bytes - at);
   // Otherwise, OpenEXR would continue at a different position than this function, and interpret the bytes
   // there as a size.
   if (value_size(file, type, size) != size)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "%.250s is a damaged EXR file: its attribute \"%.60s\" says %u bytes, which is not the size "
-        "of its \"%.60s\"",
-        what, name.c_str(), size, type.c_str());
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "%.250s is a damaged EXR file: its attribute \"%.60s\" has %u bytes, which is not the size "
+                  "of the type \"%.60s\"",
+                  what, name.c_str(), size, type.c_str());
   file.clear();
   file.seekg(std::streamoff(at + size));
 }
@@ -153,8 +154,8 @@ void check_extent(std::istream& file, std::uint32_t version, std::uintmax_t file
   const std::int64_t rows = edge[4] - edge[2] + 1;
   if (file && (version & is_tiled) == 0 && rows > 0 && std::uintmax_t(rows) / 32 > file_bytes)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%.250s is a damaged EXR file: it says %lld rows, too many for its %ju bytes", what,
-                  static_cast<long long>(rows), file_bytes);
+                  "%.250s is a damaged EXR file: it says that it has %lld rows, too many for its %ju bytes",
+                  what, static_cast<long long>(rows), file_bytes);
   const std::int64_t columns = edge[3] - edge[1] + 1;
   if (file && columns > max_columns)
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %lld columns (need at most %lld); make it smaller", what,

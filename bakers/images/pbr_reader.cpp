@@ -148,16 +148,16 @@ PbrFiles arrange_pbr_names(std::span<const std::string> names) {
     if (!name) continue;
     std::optional<std::size_t>& place = places.of(*name);
     if (place)
-      throw Failure(NOOK_ERROR_BAD_FILE, "%.150s and %.150s have names of the same map; remove one of them",
+      throw Failure(NOOK_ERROR_BAD_FILE,
+                    "%.150s and %.150s are the same map by their names; remove one of them",
                     names[*place].c_str(), names[i].c_str());
     place = i;
   }
   if (!places.base_colour)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "no image is a base colour by its name (got %s; need a name with albedo, base color, color or "
-        "diffuse)",
-        names.empty() ? "no image" : list_of(names).c_str());
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "no image has the name of a base colour (got %s; need a name that contains albedo, base "
+                  "color, color or diffuse)",
+                  names.empty() ? "no image" : list_of(names).c_str());
   PbrFiles files;
   files.base_colour = *places.base_colour;
   files.normal = places.normal_up ? places.normal_up : places.normal_down;

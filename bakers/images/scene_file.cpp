@@ -65,12 +65,12 @@ constexpr double most_negative = 0.01;
 void check_layout(const platform::ImageHead& spec, const char* format) {
   if (spec.value_type != "float" && spec.value_type != "half")
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "a %s image of %s values holds no radiance (need floating point); give a .hdr or .exr file",
+                  "the %s image has %s values, but radiance needs floating point; give a .hdr or .exr file",
                   format, spec.value_type.c_str());
   if (spec.channels < 3)
-    throw Failure(NOOK_ERROR_BAD_FILE, "an image of %d channels (need red, green and blue)", spec.channels);
+    throw Failure(NOOK_ERROR_BAD_FILE, "the image has %d channels (need red, green and blue)", spec.channels);
   if (spec.depth > 1)
-    throw Failure(NOOK_ERROR_BAD_FILE, "a map has one layer (got an image of %d layers)", spec.depth);
+    throw Failure(NOOK_ERROR_BAD_FILE, "the image has %d layers, but a map has only one", spec.depth);
   if (spec.width != 2 * std::int64_t{spec.height} || spec.width < fewest_columns || spec.width > most_columns)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "an image of %d x %d pixels is not a latitude-longitude map (need twice as wide as high, "
@@ -93,8 +93,8 @@ void check_radiance(const std::vector<float>& rgb) {
         out_of_range, max_radiance);
   if (negative > most_negative * light)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "its negative values add up to %.3g of the positive ones (need at most %g, the share that "
-                  "filters leave); an image of differences is not a map",
+                  "the sum of its negative values is %.3g of the sum of its positive values (need at most "
+                  "%g, which filters can cause); a difference image is not a map",
                   light > 0 ? negative / light : 1.0, most_negative);
 }
 
@@ -112,7 +112,7 @@ Environment read_environment(const std::filesystem::path& path) {
                    std::filesystem::file_size(path, unknown));
   std::vector<float> rgb(3 * std::size_t(spec.width) * std::size_t(spec.height));
   if (!image->read_rows(0, spec.height, 3, rgb.data()))
-    throw Failure(NOOK_ERROR_BAD_FILE, "a damaged image (%s)", image->why().c_str());
+    throw Failure(NOOK_ERROR_BAD_FILE, "the image is damaged (%s)", image->why().c_str());
   check_radiance(rgb);
   for (float& value : rgb) value = std::max(value, 0.0f);
   return Environment(std::uint32_t(spec.width), std::uint32_t(spec.height), std::move(rgb));

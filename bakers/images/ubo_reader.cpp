@@ -81,8 +81,8 @@ std::vector<Pair> read_pairs(std::span<const std::string> names) {
     if (!angles || angles->light_tilt < 0 || angles->light_tilt >= 90 || angles->view_tilt < 0 ||
         angles->view_tilt >= 90)
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "the name %.200s gives no directions; it needs tl, pl, tv and pv once each, followed by "
-                    "degrees, with tilts below 90",
+                    "the file name %.200s does not give the directions; it needs tl, pl, tv and pv once "
+                    "each, followed by degrees, with tilts below 90",
                     name.c_str());
     pairs.push_back({canonical(angles->light_tilt, angles->light_azimuth),
                      canonical(angles->view_tilt, angles->view_azimuth)});
@@ -110,12 +110,11 @@ void put_moved_lights_back(std::vector<Pair>& pairs) {
   const auto first = std::size_t(std::find(grid.image.begin(), grid.image.end(), none) - grid.image.begin());
   const Angles light = std::next(lights.begin(), std::ptrdiff_t(first / views.size()))->first;
   const Angles view = std::next(views.begin(), std::ptrdiff_t(first % views.size()))->first;
-  throw Failure(
-      NOOK_ERROR_BAD_FILE,
-      "no image for tl %g, pl %g, tv %g, pv %g (%zu of %zu are missing); every light is needed with "
-      "every view",
-      double(light.first), double(light.second), double(view.first), double(view.second), missing,
-      grid.image.size());
+  throw Failure(NOOK_ERROR_BAD_FILE,
+                "there is no image for tl %g, pl %g, tv %g, pv %g (%zu of %zu are missing); you need an "
+                "image for each light with each view",
+                double(light.first), double(light.second), double(view.first), double(view.second), missing,
+                grid.image.size());
 }
 
 }  // namespace
@@ -131,7 +130,8 @@ std::optional<UboAngles> parse_ubo_name(std::string_view name) {
 
 UboGrid arrange_ubo_names(std::span<const std::string> names) {
   if (names.empty())
-    throw Failure(NOOK_ERROR_BAD_FILE, "no images; one for each light and view direction is needed");
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "there are no images; you need one for each pair of a light and a view direction");
   std::vector<Pair> pairs = read_pairs(names);
   put_moved_lights_back(pairs);
   std::map<Angles, std::size_t> lights, views;
@@ -265,11 +265,10 @@ class UboImage {
     for (const float value : {colour.x, colour.y, colour.z})
       // Raw materials store half floats.
       if (!(std::abs(value) <= max_half))
-        throw Failure(
-            NOOK_ERROR_BAD_FILE,
-            "%.250s: texel (%d, %d), counted from the upper left, is not a finite number of at most "
-            "65504 in magnitude",
-            path_.c_str(), x, y);
+        throw Failure(NOOK_ERROR_BAD_FILE,
+                      "%.250s: texel (%d, %d), counted from the upper left, is not finite or exceeds 65504 "
+                      "in magnitude",
+                      path_.c_str(), x, y);
     return colour;
   }
 
@@ -318,7 +317,8 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
   const std::size_t values = raw.light_rows() * raw.views.size() * raw.texels();
   if (values > most_bytes / sizeof(float))
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%zu images of %u x %u texels are %.1f GiB of floats; take a smaller square (--texels)",
+                  "%zu images of %u x %u texels take %.1f GiB as floats, which is too much; choose a smaller "
+                  "square (--texels)",
                   names.size(), raw.width, raw.height, double(values) * sizeof(float) / double(1 << 30));
   raw.btf.resize(values);
 
@@ -335,7 +335,7 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
       const Size size = image.size();
       if (size != first)
         throw Failure(NOOK_ERROR_BAD_FILE,
-                      "%.200s: has %d x %d texels, %.150s has %d x %d; all must be of one size",
+                      "%.200s has %d x %d texels, but %.150s has %d x %d; all images need the same size",
                       paths[i].c_str(), size.width, size.height, names[grid.image[0]].c_str(), first.width,
                       first.height);
       copy_image(image.read(middle), cell / raw.views.size(), cell % raw.views.size(), raw);

@@ -94,11 +94,11 @@ std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook
   if (clip_split == NOOK_BAKE_SPLIT_FAMILIES) {
     const ClipSplit split = split_families(character, clips);
     if (!clips.empty() && split.measured.empty())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.next: clip_split: the names of all clips (%zu) begin with the same word and are "
-                    "one family, which "
-                    "leaves none to measure; split by half, or name the clips to fit",
-                    clips.size());
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "desc.next: clip_split: the names of all %zu clips begin with the same word, so the clips are one "
+          "family and none is left to measure; split by half, or name the clips to fit",
+          clips.size());
     return split.fitted;
   }
   if (clip_split != NOOK_BAKE_SPLIT_ALL) unknown("desc.next: clip_split", clip_split);
@@ -139,9 +139,10 @@ void choose_settings(const nook_bake_character_desc& desc, const nook_bake_chara
                     "desc.saturation is out of range (got %g, need 0 to %g, or NOOK_BAKE_UNSATURATED)",
                     double(desc.saturation), double(max_saturation));
     if (settings.fit != FitMethod::nook || (desc.gamma != 0 && desc.gamma != 1))
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "desc.saturation needs the default form and a gamma of 1 (got %g, fit %s, gamma %g)",
-                    double(desc.saturation), name_of(settings.fit), double(desc.gamma));
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "desc.saturation needs the default form and a gamma of 1 (got saturation %g, fit %s, gamma %g)",
+          double(desc.saturation), name_of(settings.fit), double(desc.gamma));
     settings.saturation = desc.saturation;
   }
   settings.learn_gamma = desc.gamma == NOOK_BAKE_GAMMA_LEARNED;

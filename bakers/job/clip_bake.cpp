@@ -45,7 +45,8 @@ std::vector<std::size_t> chosen_clips(const ImportedCharacter& character,
             [&](std::size_t a, std::size_t b) { return character.clips[a].name < character.clips[b].name; });
   clips.erase(std::unique(clips.begin(), clips.end()), clips.end());
   if (clips.empty())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the character has no clip that shows motion; name one");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the character has no clip that shows motion; name the clips to bake");
   return clips;
 }
 

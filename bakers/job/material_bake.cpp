@@ -44,8 +44,8 @@ Method method_of(nook_bake_method method) {
     case NOOK_BAKE_METHOD_NEURAL:
       return Method::neural;
     default:
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.method is unknown (got %d); use a NOOK_BAKE_METHOD_",
-                    int(method));
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.method is unknown (got %d); use a NOOK_BAKE_METHOD_ constant", int(method));
   }
 }
 
@@ -54,8 +54,9 @@ Method method_of(nook_bake_method method) {
 ReliefSource relief_source_of(const nook_bake_material_desc& desc) {
   check_range("desc.relief", desc.relief, 0, 1);
   if (desc.heights && desc.relief == 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.heights are given, but desc.relief is 0; set it to 1, or heights to NULL");
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.heights are given, but desc.relief is 0; set desc.relief to 1, or desc.heights to NULL");
   if (desc.relief == 0) return ReliefSource::none;
   return desc.meso || desc.heights ? ReliefSource::known : ReliefSource::estimated;
 }
@@ -72,7 +73,8 @@ std::vector<Vec3> directions_of(const char* name, const float* xyz, std::uint32_
                                 const nook_bake_material_desc& desc) {
   if (!xyz) {
     if (!desc.meso)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is NULL; measured data need their directions", name);
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is NULL; give the directions of the measured data",
+                    name);
     return spiral_directions(count, desc.max_tilt_degrees);
   }
   std::vector<Vec3> directions(count);
@@ -137,7 +139,8 @@ void read_measured(const nook_bake_material_desc& desc, MaterialTask& task) {
 void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
   if (desc.btf || desc.coverage || desc.heights)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.meso and desc.btf, desc.coverage or desc.heights are given; give one or the other");
+                  "desc.meso is given together with desc.btf, desc.coverage or desc.heights; give either "
+                  "desc.meso or the measured data");
   check_range("desc.samples", desc.samples, 1, 16);
   check_range("desc.bounces", desc.bounces, 0, 16);
   check_range("desc.bounce_rays", desc.bounce_rays, 1, 4096);
@@ -145,8 +148,8 @@ void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
     for (const Vec3 d : set)
       if (!(d.z >= lowest_traced_z))
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "desc.lights or desc.views: (%g, %g, %g) is more than 85 degrees from the normal, and "
-                      "desc.meso is traced",
+                      "desc.lights or desc.views: (%g, %g, %g) is more than 85 degrees from the normal; "
+                      "desc.meso can only be traced up to 85 degrees",
                       double(d.x), double(d.y), double(d.z));
   task.meso = meso_parameters(desc.meso);
   task.raw.name = task.meso->name;
@@ -163,8 +166,8 @@ void read_meso(const nook_bake_material_desc& desc, MaterialTask& task) {
 void set_paper_form(CompressionSettings& s) {
   if (s.method == Method::neural || s.relief != ReliefSource::none)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.form is NOOK_FORM_PAPER, which has no method NEURAL and no relief; use another "
-                  "method, and 0 for desc.relief");
+                  "desc.form is NOOK_FORM_PAPER, which allows neither the method NEURAL nor a relief; use "
+                  "another method, and set desc.relief to 0");
   s.bits = 16;
   s.map_side = 0;
   if (!s.mapping) s.mapping = nook::material::paper_mapping(s.visibility);
@@ -193,7 +196,7 @@ CompressionSettings settings_of(const nook_bake_material_desc& desc) {
   if (desc.form == NOOK_FORM_PAPER) {
     set_paper_form(s);
   } else if (desc.form != NOOK_FORM_DEFAULT) {
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.form is unknown (got %d); use a NOOK_FORM_",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.form is unknown (got %d); use a NOOK_FORM_ constant",
                   int(desc.form));
   }
   return s;

@@ -40,7 +40,7 @@ Crop checked(Crop crop, const Looks& looks) {
       crop.width > looks.width - crop.x || crop.height > looks.height - crop.y)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "the crop exceeds the material (got %u x %u texels from (%u, %u) on, need a part of %u x %u)",
+        "the crop exceeds the material (got %u x %u texels starting at (%u, %u), the material has %u x %u)",
         crop.width, crop.height, crop.x, crop.y, looks.width, looks.height);
   return crop;
 }

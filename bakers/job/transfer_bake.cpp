@@ -92,13 +92,14 @@ TransferTask transfer_task_of(const nook_bake_transfer_desc& desc) {
     mesh.tangent = surface_tangents(mesh, task.warnings);
   }
   if (desc.form != NOOK_FORM_DEFAULT && desc.form != NOOK_FORM_PAPER)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.form is unknown (got %d); use a NOOK_FORM_",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.form is unknown (got %d); use a NOOK_FORM_ constant",
                   int(desc.form));
   if ((desc.form == NOOK_FORM_PAPER) != (desc.material != nullptr))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  desc.material ? "desc.material is given, but desc.form is NOOK_FORM_DEFAULT; set it to "
-                                  "NOOK_FORM_PAPER"
-                                : "desc.material is NULL; NOOK_FORM_PAPER needs the file of a material");
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        desc.material
+            ? "desc.material is given, but desc.form is NOOK_FORM_DEFAULT; set desc.form to NOOK_FORM_PAPER"
+            : "desc.material is NULL, but NOOK_FORM_PAPER needs the file of a material");
   if (desc.material) {
     task.material = tables_of_material({static_cast<const std::byte*>(desc.material), desc.material_size});
     task.material_hash = sha256(std::span(static_cast<const std::byte*>(desc.material), desc.material_size));

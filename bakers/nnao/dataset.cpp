@@ -73,15 +73,15 @@ bool is_validation(std::uint32_t scene, std::uint32_t scenes) {
 void check(const DatasetSettings& settings) {
   if (settings.scenes < 2 * family_count)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "too few scenes (got %u, need at least %u, two of each family)", settings.scenes,
+                  "too few scenes (got %u, need at least %u: two for each family)", settings.scenes,
                   2 * family_count);
   if (settings.views < settings.scenes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "too few views (got %u, need at least one per scene, %u)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "too few views (got %u, need at least one per scene: %u)",
                   settings.views, settings.scenes);
   if (settings.points_per_view < 1 || settings.rays < 1 || settings.width < 16 || settings.height < 16)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the data set is empty (got %u points per view, %u rays, %u x %u pixels, need at least 1, "
-                  "1, 16 x 16)",
+                  "the data set is empty (got %u points per view, %u rays and %u x %u pixels; need at least "
+                  "1 point, 1 ray and 16 x 16 pixels)",
                   settings.points_per_view, settings.rays, settings.width, settings.height);
   if (!(settings.host_normal_share >= 0 && settings.host_normal_share <= 1))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the share of host normals is not in [0, 1] (got %g)",

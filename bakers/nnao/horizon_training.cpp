@@ -172,8 +172,8 @@ double horizon_step_gradient(const Dataset& data, const TrainingSettings& settin
                              std::uint64_t step_seed, std::span<float> gradient) {
   if (points.empty() || points.size() % lane_count != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the minibatch has no whole blocks (got %zu points, need a multiple of %d)", points.size(),
-                  lane_count);
+                  "the minibatch does not consist of whole blocks (got %zu points, need a multiple of %d)",
+                  points.size(), lane_count);
   // We train on the grids for 9, 16 and 64 taps. A fourth grid has the 16 steps of 256 taps, but only 4
   // directions. The number of directions affects only the noise. The smallest grid is drawn twice as often as
   // the others, because it has the largest error.

@@ -216,24 +216,25 @@ TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view
   const Container file(bytes, checkpoint_kind);
   ByteReader head = file.section("HEAD"), numbers = file.section("NUMB");
   if (head.u64() != fingerprint(recipe))
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "the checkpoint belongs to a training with other settings; remove it, or use those settings");
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the checkpoint belongs to a training with other settings; remove the checkpoint, or use "
+                  "the settings of that training");
   TrainingState state(parameter_count(form));
   state.epochs_done = head.u32();
   state.adam.steps = head.u64();
   head.check_end();
   if (state.adam.steps > max_steps)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE, "the checkpoint says that %llu steps were taken (need at most %llu); remove it",
-        static_cast<unsigned long long>(state.adam.steps), static_cast<unsigned long long>(max_steps));
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the checkpoint says that %llu steps were taken (need at most %llu); remove the checkpoint",
+                  static_cast<unsigned long long>(state.adam.steps),
+                  static_cast<unsigned long long>(max_steps));
   for (std::size_t i = 0; i < state.parameter.size(); ++i) {
     for (float* value : {&state.parameter[i], &state.adam.mean[i], &state.adam.square[i]})
       *value = numbers.f32();
     if (!is_reachable(state.parameter[i], state.adam.mean[i], state.adam.square[i]))
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "parameter %zu of the checkpoint cannot come from training (got %g, its mean gradient "
-                    "%g, mean squared gradient %g); remove it",
+                    "parameter %zu of the checkpoint cannot come from training (got %g with mean gradient %g "
+                    "and mean squared gradient %g); remove the checkpoint",
                     i, double(state.parameter[i]), double(state.adam.mean[i]), double(state.adam.square[i]));
   }
   numbers.check_end();

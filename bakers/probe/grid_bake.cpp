@@ -27,7 +27,7 @@ GridBake::GridBake(const LitScene& scene, const GridBakeSettings& settings)
       light_(scene.environment(), uniform_share),
       gram_(nook::probe::basis_gram(settings.basis)) {
   if (settings.grid.size() == 0 || settings.grid.size() > nook::probe::max_probes)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a grid of %zu probes (need 1 to %u)", settings.grid.size(),
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the grid has %zu probes (need 1 to %u)", settings.grid.size(),
                   nook::probe::max_probes);
   nook::probe::check_grid(settings.grid, NOOK_ERROR_INVALID_ARGUMENT);
   for (std::size_t i = 0; i < settings.grid.size(); ++i) fits_.emplace_back(settings);

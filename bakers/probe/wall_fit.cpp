@@ -277,9 +277,10 @@ double& channel(Eigen::MatrixXd& m, Eigen::Index row, int c) {
 
 void fit_to_surfaces(Probes& probes, const TrainingPlaces& places, const SurfaceFitSettings& settings) {
   if (probes.basis.kind != nook::probe::BasisKind::harmonics || probes.basis.order != order)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "only harmonics of order 2 can be fitted to surfaces (got %u functions)",
-                  probes.basis.count);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "only spherical harmonics of order 2 can be fitted to surfaces (got a basis of %u functions)",
+        probes.basis.count);
   const auto unknowns = Eigen::Index(probes.grid.size() * functions);
   const auto rows = Eigen::Index(places.size());
   double mean = 0;

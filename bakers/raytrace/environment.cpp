@@ -19,13 +19,13 @@ Environment::Environment(std::uint32_t width, std::uint32_t height, std::vector<
   if (texel_count() == 0 || rgb_.size() != 3 * texel_count())
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
-        "an environment of %u x %u texels has %zu numbers (need 3 for each texel, and one texel or more)",
+        "the environment has %u x %u texels and %zu numbers (need one texel or more, and 3 numbers for each)",
         width, height, rgb_.size());
   for (std::size_t i = 0; i < rgb_.size(); ++i)
     if (!(rgb_[i] >= 0 && double(rgb_[i]) <= max_radiance))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "an environment's texel is out of range (got %g in row %zu, column %zu, need 0 to %g); "
-                    "repair the map or scale its light down",
+                    "a texel of the environment is out of range (got %g in row %zu, column %zu, need 0 to "
+                    "%g); repair the map or scale its light down",
                     double(rgb_[i]), i / 3 / width, i / 3 % width, max_radiance);
 }
 

@@ -31,9 +31,10 @@ std::uint32_t wrapped(std::int64_t at, std::uint32_t count, TextureWrap wrap) {
 Texture::Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba)
     : width_(width), height_(height), rgba_(std::move(rgba)) {
   if (width_ < 1 || height_ < 1 || rgba_.size() != std::size_t(4) * width_ * height_)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "a texture of %u x %u texels has %zu bytes (need 4 for each texel, and one texel or more)",
-                  width_, height_, rgba_.size());
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the texture has %u x %u texels and %zu bytes (need one texel or more, and 4 bytes for each)", width_,
+        height_, rgba_.size());
   for (std::size_t i = 0; i < linear_.size(); ++i) linear_[i] = linear_of_srgb(float(i) / 255);
 }
 

@@ -307,8 +307,8 @@ void check_synthesis(const Exemplar& exemplar, const SynthesisSettings& settings
   const auto shorter = std::uint32_t(std::max(std::min(shape.width, shape.height), 0));
   if (shorter < min_exemplar_side)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the material is too small for a synthesis (got %d x %d texels, need %u x %u)", shape.width,
-                  shape.height, min_exemplar_side, min_exemplar_side);
+                  "the material is too small for a synthesis (got %d x %d texels, need at least %u x %u)",
+                  shape.width, shape.height, min_exemplar_side, min_exemplar_side);
   if (settings.side < side_step || settings.side > nook::synthesis::max_side ||
       settings.side % side_step != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -321,7 +321,8 @@ void check_synthesis(const Exemplar& exemplar, const SynthesisSettings& settings
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "passes is out of range (got %u, need 1 to 16)",
                   settings.passes);
   if (exemplar.values.rows() != shape.texels() || exemplar.values.cols() < 1 || !exemplar.values.allFinite())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the looks of the texels are missing or not finite");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the appearance values of the texels are missing or not finite");
 }
 
 std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings& settings,

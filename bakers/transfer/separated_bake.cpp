@@ -72,8 +72,8 @@ void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings) {
   nook::transfer::check_lobes(settings.lobes, NOOK_ERROR_INVALID_ARGUMENT);
   if (settings.side < 8 || settings.side > max_ray_side)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the side of the cube of rays is out of range (got %u, need 8 to %u)", settings.side,
-                  max_ray_side);
+                  "the number of rays along a side of the cube is out of range (got %u, need 8 to %u)",
+                  settings.side, max_ray_side);
   if (settings.bounces > nook::transfer::max_bounces)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of bounces is out of range (got %u, need 0 to %u)",
                   settings.bounces, nook::transfer::max_bounces);
@@ -104,8 +104,8 @@ void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings) {
   for (std::size_t t = 0; t < mesh.triangle.size(); ++t)
     for (const std::uint32_t i : mesh.triangle[t])
       if (i >= count)
-        throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "triangle %zu names vertex %u (the mesh has %zu vertices)",
-                      t, i, count);
+        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                      "triangle %zu refers to vertex %u, but the mesh has only %zu", t, i, count);
 }
 
 nook::transfer::Frame frame_of(const SurfaceMesh& mesh, std::size_t vertex) {

@@ -99,11 +99,11 @@ TEST_CASE("lighting that makes no sense is refused") {
   }
   SECTION("a map that is not finite") {
     lighting.sky[2] = std::nanf("");
-    expected = "texel is out of range (got nan in row 0, column 0";
+    expected = "texel of the environment is out of range (got nan in row 0, column 0";
   }
   SECTION("a map so bright that sums of its light have no float") {
     lighting.sky[1] = 1e37f;
-    expected = "texel is out of range (got 1e+37 in row 0, column 0, need 0 to 1e+15)";
+    expected = "texel of the environment is out of range (got 1e+37 in row 0, column 0, need 0 to 1e+15)";
   }
   SECTION("emission so bright") {
     lighting.mesh.emission[2] = 1e37f;

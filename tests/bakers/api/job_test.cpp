@@ -262,7 +262,8 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
   SECTION("saturation of the paper's form") {
     desc.saturation = 1;
     desc.form = NOOK_FORM_PAPER;
-    expected = "desc.saturation needs the default form and a gamma of 1 (got 1, fit paper, gamma 0)";
+    expected =
+        "desc.saturation needs the default form and a gamma of 1 (got saturation 1, fit paper, gamma 0)";
   }
   SECTION("gamma") {
     desc.gamma = 0.5f;
@@ -283,7 +284,8 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
   SECTION("saturation of a fit that has none") {
     desc.saturation = 1;
     desc.gamma = 2;
-    expected = "desc.saturation needs the default form and a gamma of 1 (got 1, fit nook, gamma 2)";
+    expected =
+        "desc.saturation needs the default form and a gamma of 1 (got saturation 1, fit nook, gamma 2)";
   }
   SECTION("gamma below what stands for learned") {
     desc.gamma = -2;

@@ -314,7 +314,7 @@ TEST_CASE("stripes on a plane of known height stay sharp between the sampled vie
   stripes.desc.heights = stripes.heights.data();
   CHECK(refused(stripes.desc, "got 1.5"));
   stripes.desc.relief = 0;
-  CHECK(refused(stripes.desc, "desc.relief is 0; set it to 1"));
+  CHECK(refused(stripes.desc, "desc.relief is 0; set desc.relief to 1"));
   stripes.desc.relief = 3;
   CHECK(refused(stripes.desc, "desc.relief is out of range (got 3, need 0 to 1)"));
 }
@@ -465,7 +465,7 @@ TEST_CASE("if input cannot be baked to a material, the message names the cause")
   const float one = 1;
   desc = small_weave();
   desc.btf = &one;
-  CHECK(refused(desc, "one or the other"));
+  CHECK(refused(desc, "either desc.meso or the measured data"));
 
   Measured measured;
   nook_bake_job job = nullptr;

@@ -64,7 +64,8 @@ TEST_CASE("an early recipe is read, and its automatic poses are refused") {
     FAIL("made poses of another generation");
   } catch (const Failure& failure) {
     CHECK(failure.code() == NOOK_ERROR_BAD_FILE);
-    CHECK(std::string(failure.what()).find("(got generation 1, need 5); bake it again") != std::string::npos);
+    CHECK(std::string(failure.what()).find("(got generation 1, need 5); bake the model again") !=
+          std::string::npos);
   }
   // Single joints have not changed.
   CHECK(recipe_poses(character, read_recipe(character, early_text("0", "3"))).size() == 27);

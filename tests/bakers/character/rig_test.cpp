@@ -380,7 +380,7 @@ TEST_CASE("rig files that say nothing clear are refused") {
   refused("{", "not JSON");
   refused("[]", "\"bones\"");
   refused(R"({"bones": []})", "\"bones\"");
-  refused(R"({"bones": {}})", "names no bone");
+  refused(R"({"bones": {}})", "\"bones\" is empty");
   refused(R"({"bones": {"tail1": {}}, "bone": 1})", "unknown key \"bone\"");
   refused(R"({"bones": {"tail9": {}}})", "no bone is named \"tail9\"");
   refused(R"({"bones": {"tail1": 3}})", "not an object");
@@ -390,7 +390,7 @@ TEST_CASE("rig files that say nothing clear are refused") {
   refused(R"({"bones": {"tail1": {"limb": 1.5}}})", "limb");
   refused(R"({"bones": {"tail1": {"limb": 99999999999}}})", "limb");
   refused(R"({"bones": {"tail1": {"parent": 3}}})", "not a name");
-  refused(R"({"bones": {"tail1": {"parent": "tail3"}}})", "hangs on itself");
+  refused(R"({"bones": {"tail1": {"parent": "tail3"}}})", "is its own ancestor");
   SkinnedMesh twice = mesh;
   twice.bones[2].name = twice.bones[1].name = "bone";
   try {

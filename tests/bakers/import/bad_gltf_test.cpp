@@ -198,7 +198,7 @@ TEST_CASE("faults of accessors and buffer views") {
         {"count", 1},
         {"indices", {{"bufferView", file.add_view(std::vector<std::uint16_t>{47})}, {"componentType", 5123}}},
         {"values", {{"bufferView", file.add_view(std::vector<float>{0, 0, 0})}}}};
-    check_refused(file, "sparse index 47");
+    check_refused(file, "sparse index is 47");
   }
   SECTION("more sparse values than bytes") {
     file.document["accessors"][0]["sparse"] = {

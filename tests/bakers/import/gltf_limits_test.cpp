@@ -250,7 +250,7 @@ TEST_CASE("morph targets stand at their default weights") {
   CHECK(contains(failure_of(file), "has 2 morph targets but 3 default weights"));
   file.document["nodes"][3].erase("weights");
   mesh["primitives"][0]["targets"][0]["POSITION"] = file.add_floats({0, 1, 0}, "VEC3");
-  CHECK(contains(failure_of(file), "morph target 0 moves 1 vertices (primitive has 47)"));
+  CHECK(contains(failure_of(file), "morph target 0 moves 1 vertices, but the primitive has 47"));
 }
 
 TEST_CASE("names with a NUL character are refused") {

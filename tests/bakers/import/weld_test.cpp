@@ -188,7 +188,7 @@ TEST_CASE("faults are named with their number and the first place") {
   }
   SECTION("primitives that leave vertices over") {
     mesh.primitives = {{"a", 0, 3}};
-    CHECK(contains(failure_of(mesh), "primitives hold 3 vertices (mesh has 6)"));
+    CHECK(contains(failure_of(mesh), "the primitives have 3 vertices in all, but the mesh has 6"));
   }
   SECTION("fewer weights than vertices") {
     mesh.weights.pop_back();
