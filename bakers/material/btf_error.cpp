@@ -22,16 +22,16 @@ void need_sizes(const RawMaterial& raw, const ClusteredTensor& t, const char* wh
   const auto& s = t.shape;
   if (s.views != raw.views.size() || s.width != raw.width || s.height != raw.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the %s has %u views and %u x %u texels, the raw material has %zu and %u x %u; evaluate it "
-                  "with the raw file that it was baked from",
+                  "the %s has %u views and %u x %u texels, but the raw material has %zu views and %u x %u "
+                  "texels; give the raw file that the material was baked from",
                   what, s.views, s.width, s.height, raw.views.size(), raw.width, raw.height);
 }
 
 void need_texels(const RawMaterial& raw, std::uint32_t width, std::uint32_t height, const char* what) {
   if (width != raw.width || height != raw.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the %s has %u x %u texels, the raw material has %u x %u; evaluate it with the raw file "
-                  "that it was baked from",
+                  "the %s has %u x %u texels, but the raw material has %u x %u; give the raw file that the "
+                  "material was baked from",
                   what, width, height, raw.width, raw.height);
 }
 
@@ -90,7 +90,7 @@ BtfError error_of_views(const RawMaterial& raw, const Decode& decode) {
 
 void need_lights(const RawMaterial& raw, std::size_t numbers, std::uint32_t rank) {
   if (numbers != raw.light_rows() * rank)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the light basis has %zu lights, the raw material has %zu",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the light basis has %zu lights, but the raw material has %zu",
                   numbers / (3 * rank), raw.lights.size());
 }
 

@@ -29,8 +29,8 @@ class Rest {
   std::span<const std::byte> take(std::uint64_t size, const char* what) {
     if (size > bytes_.size())
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "the .btf file ends in its %s (got %zu bytes, need %llu); fetch it again", what,
-                    bytes_.size(), static_cast<unsigned long long>(size));
+                    "the .btf file ends inside its %s (got %zu bytes, need %llu); download the file again",
+                    what, bytes_.size(), static_cast<unsigned long long>(size));
     const auto taken = bytes_.first(std::size_t(size));
     bytes_ = bytes_.subspan(std::size_t(size));
     return taken;
@@ -59,11 +59,10 @@ bool read_signature(Rest& rest, std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()),
                               std::min(bytes.size(), signature.size() + 1));
   if (text.substr(0, signature.size()) != signature)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "the file does not begin with %.9s; a BTF of UBO2014, compressed by decorrelated full matrix "
-        "factorisation, is needed",
-        signature.data());
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the file does not begin with %.9s; need a BTF of UBO2014, compressed by decorrelated full "
+                  "matrix factorisation",
+                  signature.data());
   const bool rotated = text.size() > signature.size() && text.back() == 'R';
   rest.take(signature.size() + rotated, "signature");
   return rotated;
@@ -78,11 +77,11 @@ bool read_head(Rest& rest) {
   const bool has_cosine = version > 1 && rest.u32(what) != 0;
   if (version > 2) rest.take(rest.u32(what), what);
   const std::uint32_t channels = version > 3 ? rest.u32(what) : 3;
-  if (channels != 3)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the .btf file has %u channels; 3 are needed", channels);
+  if (channels != 3) throw Failure(NOOK_ERROR_BAD_FILE, "the .btf file has %u channels, need 3", channels);
   for (std::uint32_t c = 0; version > 3 && c < channels; ++c) rest.take(rest.u32(what), what);
   if (before - rest.size() != size)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the head of the .btf file says %u bytes and has %zu", size,
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the header of the .btf file says that it has %u bytes, but it has %zu", size,
                   before - rest.size());
   return has_cosine;
 }
@@ -95,7 +94,8 @@ Vec3 read_direction(Rest& rest) {
 
 std::uint32_t check_directions(const Rest& rest, std::uint32_t count, const char* what) {
   if (count == 0 || count > most_directions || count > rest.size() / 8)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the .btf file cannot have %u %s directions", count, what);
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the .btf file says that it has %u %s directions, which is 0 or too many", count, what);
   return count;
 }
 
@@ -109,7 +109,8 @@ void read_directions(Rest& rest, RawMaterial& raw) {
     if (v == 0) raw.lights = of_view;
     if (of_view != raw.lights)
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "the lights of view %u differ from those of view 0; every view needs the same", v);
+                    "the lights of view %u differ from the lights of view 0; all views need the same lights",
+                    v);
   }
 }
 
@@ -124,7 +125,9 @@ Size read_size(Rest& rest, bool rotated) {
   if (rotated) rest.take(std::uint64_t(rest.u32("size")) * 9 * 4, "rotations");
   if (size.width == 0 || size.height == 0 || size.width > most_texels_a_side ||
       size.height > most_texels_a_side)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the .btf file cannot have %u x %u texels", size.width, size.height);
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the .btf file says that it has %u x %u texels, which is 0 or too many", size.width,
+                  size.height);
   return size;
 }
 
@@ -145,8 +148,8 @@ ColourModel read_colour_model(Rest& rest) {
   constexpr int known[] = {0, 1, 3, 4, 9, 10, 11, 12};
   if (std::ranges::count(known, colour.model) == 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the .btf file has the colour model %d; RGB (0), YUV (1), principal components (3), YCoCg "
-                  "(4) and the logarithmic 9 to 12 are read",
+                  "the .btf file has the colour model %d; Nook reads RGB (0), YUV (1), principal components "
+                  "(3), YCoCg (4) and the logarithmic models 9 to 12",
                   colour.model);
   return colour;
 }
@@ -226,16 +229,15 @@ Channel read_channel(Rest& rest, Size size, const RawMaterial& raw) {
   constexpr const char* what = "channels";
   const std::uint32_t number_bytes = rest.u8(what);
   if (number_bytes != 2 && number_bytes != 4 && number_bytes != 8)
-    throw Failure(NOOK_ERROR_BAD_FILE, "numbers of %u bytes in the .btf file; 2, 4 or 8 are needed",
-                  number_bytes);
+    throw Failure(NOOK_ERROR_BAD_FILE, "the .btf file has numbers of %u bytes, need 2, 4 or 8", number_bytes);
   const std::uint64_t components = rest.u32(what), rows = rest.u32(what), columns = rest.u32(what);
   const std::uint64_t pairs = std::uint64_t(raw.lights.size()) * raw.views.size(),
                       texels = std::uint64_t(size.width) * size.height;
   const bool by_pairs = rows == pairs && columns == texels;
   if (components == 0 || !(by_pairs || (rows == texels && columns == pairs)))
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "a channel of the .btf file has %llu components, %llu rows and %llu columns; one or more, "
-                  "%llu and %llu are needed",
+                  "a channel of the .btf file has %llu components, %llu rows and %llu columns; need one or "
+                  "more components, %llu rows and %llu columns",
                   static_cast<unsigned long long>(components), static_cast<unsigned long long>(rows),
                   static_cast<unsigned long long>(columns), static_cast<unsigned long long>(pairs),
                   static_cast<unsigned long long>(texels));
@@ -287,15 +289,16 @@ RawMaterial read_btf_file(std::span<const std::byte> bytes, std::uint32_t texels
   const double values = double(raw.light_rows()) * double(raw.views.size()) * double(raw.texels());
   if (values > double(most_bytes / sizeof(float)))
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%zu lights, %zu views, %u x %u texels are %.1f GiB of floats; take a smaller square "
-                  "(--texels)",
+                  "%zu lights, %zu views and %u x %u texels take %.1f GiB as floats, which is too much; "
+                  "choose a smaller square (--texels)",
                   raw.lights.size(), raw.views.size(), raw.width, raw.height,
                   values * sizeof(float) / double(1 << 30));
   const ColourModel colour = read_colour_model(rest);
   std::array<Channel, 3> channels;
   for (Channel& channel : channels) channel = read_channel(rest, size, raw);
   if (rest.size() != 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "%zu bytes are left over after the .btf file's channels", rest.size());
+    throw Failure(NOOK_ERROR_BAD_FILE, "the .btf file has %zu bytes after its last channel; need none",
+                  rest.size());
   raw.btf.resize(std::size_t(values));
   tbb::parallel_for(std::size_t{0}, raw.views.size(),
                     [&](std::size_t v) { decode_view(v, channels, colour, has_cosine, raw); });

@@ -18,20 +18,19 @@ void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
   const std::uint64_t rank = clustered ? s.cluster_rank_view : s.rank_view;
   const std::uint64_t row = rank * (s.method == Method::k_cta ? s.mixture : 1);
   if (row > nook::material::max_row)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "each view has %llu coefficients (its clusters times their view rank); the file format allows %u",
-        static_cast<unsigned long long>(row), nook::material::max_row);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "each view has %llu coefficients (its clusters times their view rank), but the file format "
+                  "allows only %u",
+                  static_cast<unsigned long long>(row), nook::material::max_row);
   const auto round_up_to_4 = [](std::uint64_t n) { return (n + 3) / 4 * 4; };
   const std::uint64_t expanded = (clustered ? s.cluster_count() : 1) * round_up_to_4(s.rank_light) *
                                  round_up_to_4(rank) * raw.width * raw.height;
   if (expanded > nook::material::max_expanded)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "%llu expanded numbers (light rank times view rank times texels); the file format allows %llu: "
-        "use lower ranks or fewer texels",
-        static_cast<unsigned long long>(expanded),
-        static_cast<unsigned long long>(nook::material::max_expanded));
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the material has %llu expanded numbers (light rank times view rank times texels), but the "
+                  "file format allows only %llu; use lower ranks or fewer texels",
+                  static_cast<unsigned long long>(expanded),
+                  static_cast<unsigned long long>(nook::material::max_expanded));
 }
 
 struct DefaultRanks {
@@ -66,11 +65,11 @@ void check_neural(const CompressionSettings& s) {
                   "the number of channels of a neural material is %u; need a multiple of 4 from 4 to %u",
                   s.neural_channels, nook::material::max_neural_channels);
   if (s.neural_steps < 1 || s.neural_steps > max_neural_steps)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of steps of a training is %u; need 1 to %u",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of training steps is %u; need 1 to %u",
                   s.neural_steps, max_neural_steps);
   if (s.relief != ReliefSource::none)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "a neural material has no relief, because its features already have an offset");
+                  "a neural material cannot have a relief, because its features already have an offset");
 }
 
 void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
@@ -79,7 +78,8 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw) {
 
 void check_settings(const CompressionSettings& s, const RawMaterial& raw, bool has_mask) {
   if (s.bits != 8 && s.bits != 16)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the form of numbers is %u bits; need 8 or 16", s.bits);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the numbers of the material have %u bits; need 8 or 16",
+                  s.bits);
   if (s.method == Method::neural) {
     check_neural(s);
     if (will_have_votf(has_mask, s)) check_settings(votf_settings(s), raw, has_mask);
@@ -100,16 +100,17 @@ void check_settings(const CompressionSettings& s, const RawMaterial& raw, bool h
   }
   if (s.mapping && !(s.mapping->threshold >= 0 && s.mapping->threshold <= nook::material::max_number &&
                      s.mapping->weight >= 0 && s.mapping->weight <= nook::material::max_number))
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT, "a visibility mapping of threshold %g and weight %g; need 0 to %g each",
-        double(s.mapping->threshold), double(s.mapping->weight), double(nook::material::max_number));
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the visibility mapping has the threshold %g and the weight %g; need 0 to %g for each",
+                  double(s.mapping->threshold), double(s.mapping->weight),
+                  double(nook::material::max_number));
   check_file_limits(s, raw);
   if (s.method == Method::n_svd) return;
   check(s.cluster_rank_view, views, "the view rank of a cluster", "the number of views");
   check(s.cluster_count(), views, "the number of clusters", "the number of views");
   if (s.method == Method::k_cta)
     check(s.mixture, std::min(s.cluster_count(), nook::material::max_mixture), "the mixture K",
-          "the number of clusters, and the file format,");
+          "the number of clusters or the file format");
   if (s.map_side == 1 || s.map_side > nook::material::max_map_side)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the view map has %u cells along a side; need 2 to %u, or 0 for none", s.map_side,

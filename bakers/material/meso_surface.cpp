@@ -93,11 +93,11 @@ void check_bounds(const Bounds& b) {
   // The condition is negated, so that a NaN is rejected too.
   if (!(b.z.length() > 0 && b.z.length() <= most_height))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the mesh is %g tiles high, need above 0 and at most %g; give another side of the tile",
+                  "the mesh is %g tiles high, need above 0 and at most %g; change the side of the tile",
                   double(b.z.length()), double(most_height));
   if (!(b.x.length() <= most_width && b.y.length() <= most_width))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the mesh is %g x %g tiles wide, need at most %g; give another side of the tile",
+                  "the mesh is %g x %g tiles wide, need at most %g; change the side of the tile",
                   double(b.x.length()), double(b.y.length()), double(most_width));
 }
 

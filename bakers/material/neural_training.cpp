@@ -67,10 +67,10 @@ Targets targets_of(const RawMaterial& raw) {
 void check_scale(float scale) {
   constexpr float least = 1.0f / 4096, most = 4096;
   if (!(scale >= least && scale <= most))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the root mean square of the radiance is %g; a neural material needs %g to %g, so multiply "
-                  "the radiance",
-                  double(scale), double(least), double(most));
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the root mean square of the radiance is %g; a neural material needs %g to %g. Scale the radiance",
+        double(scale), double(least), double(most));
 }
 
 struct Trainer {

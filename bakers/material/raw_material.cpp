@@ -19,7 +19,8 @@ Vec3 direction_from_angles(float tilt_deg, float azimuth_deg) {
 }
 
 std::vector<Vec3> spiral_directions(std::uint32_t count, float max_tilt_deg) {
-  if (count < 4) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "too few directions (got %u, need 4)", count);
+  if (count < 4)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "too few directions (got %u, need at least 4)", count);
   if (!(max_tilt_deg > 0 && max_tilt_deg < 90))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the largest tilt is %g degrees; it must lie between 0 and 90",
                   double(max_tilt_deg));
@@ -68,7 +69,8 @@ std::vector<Vec3> read_directions(ByteReader& reader, std::uint32_t count) {
 void need_size(const ByteReader& reader, std::size_t size) {
   if (reader.remaining() != size)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "section %s does not fit the head (got %zu bytes, need %zu); bake the file again",
+                  "section %s does not have the size that the header gives (got %zu bytes, need %zu); bake "
+                  "the file again",
                   reader.name(), reader.remaining(), size);
 }
 
@@ -145,10 +147,10 @@ RawMaterial read_raw_material(std::span<const std::byte> bytes) {
   head.check_end();
   if (lights == 0 || views == 0 || lights > most_directions || views > most_directions || raw.texels() == 0 ||
       raw.width > most_texels_a_side || raw.height > most_texels_a_side)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "%u lights, %u views, %u x %u texels: a material needs 1 or more of each; bake the file again",
-        lights, views, raw.width, raw.height);
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the material has %u lights, %u views and %u x %u texels, but needs 1 or more of each; "
+                  "bake the file again",
+                  lights, views, raw.width, raw.height);
   raw.lights = read_directions(directions, lights);
   raw.views = read_directions(directions, views);
   directions.check_end();
@@ -240,8 +242,9 @@ void fill_image(const std::vector<Size>& sizes, const Levels& weights, float* im
 void fill_gaps(RawMaterial& raw, std::span<const float> coverage) {
   const std::size_t views = raw.views.size(), texels = raw.texels();
   if (coverage.size() != views * texels)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "coverage of %zu texels, of %zu views there are %zu",
-                  coverage.size(), views, views * texels);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the coverage has %zu values, but the %zu views have %zu texels in all", coverage.size(),
+                  views, views * texels);
   const std::vector<Size> sizes = sizes_of({raw.width, raw.height});
   for (std::size_t view = 0; view < views; ++view) {
     const std::span<const float> own = coverage.subspan(view * texels, texels);

@@ -17,14 +17,18 @@ namespace {
 
 void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const Vec3> views) {
   if (s.width < 1 || s.height < 1 || s.width > 4096 || s.height > 4096)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a texture of %u x %u texels; need 1 to 4096 each way",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the texture has %u x %u texels; need 1 to 4096 on each side",
                   s.width, s.height);
   if (s.samples < 1 || s.samples > 16)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%u samples along a texel's side; need 1 to 16", s.samples);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the number of samples along a texel's side is %u; need 1 to 16", s.samples);
   if (s.bounces > 0 && s.bounce_rays < 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "bounces need rays (got 0, need 1 or more, or no bounces)");
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "light that bounces needs rays (got 0 rays, need 1 or more); give rays, or set the bounces to 0");
   if (lights.empty() || views.empty())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "no directions (got %zu lights and %zu views, need 1 each)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "directions are missing (got %zu lights and %zu views, need at least 1 of each)",
                   lights.size(), views.size());
   for (const auto& set : {lights, views})
     for (const Vec3 d : set)
@@ -43,11 +47,10 @@ void check_memory(const TraceSettings& s, std::size_t lights, std::size_t views,
       s.bounces > 0 ? 7.0 * sizeof(float) * double(lights) + double(sizeof(SurfaceHit)) * s.bounce_rays : 0;
   const double bytes = btf + vertex * double(vertices);
   if (bytes > most_bytes)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "%zu lights, %zu views, %u x %u texels and %zu vertices take %.1f GiB, need at most %g; give "
-        "fewer directions, texels or rays of inter-reflection",
-        lights, views, s.width, s.height, vertices, bytes / (1u << 30), most_bytes / (1u << 30));
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "%zu lights, %zu views, %u x %u texels and %zu vertices take %.1f GiB, but at most %g GiB "
+                  "are allowed; use fewer directions, texels or rays of inter-reflection",
+                  lights, views, s.width, s.height, vertices, bytes / (1u << 30), most_bytes / (1u << 30));
 }
 
 // One column of texels, x fixed, from one view.

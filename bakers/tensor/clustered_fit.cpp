@@ -12,7 +12,7 @@ using Eigen::Index;
 
 ClusteredFit as_one_cluster(const Nsvd& fit, std::size_t mode) {
   if (mode >= fit.basis.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu of an N-SVD of order %zu", mode + 1,
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu does not exist in an N-SVD of order %zu", mode + 1,
                   fit.basis.size());
   ClusteredFit one;
   one.mode = mode;
@@ -57,20 +57,19 @@ namespace {
 
 void check_seeds(std::size_t sub_tensors, const ClusteredSettings& s) {
   if (s.seeds.size() != sub_tensors)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "seeds name the clusters of %zu sub-tensors (mode %zu has %zu)", s.seeds.size(), s.mode + 1,
-                  sub_tensors);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "there are seeds for %zu sub-tensors, but mode %zu has %zu",
+                  s.seeds.size(), s.mode + 1, sub_tensors);
   std::vector<std::size_t> members(s.clusters);
   for (std::size_t i = 0; i < sub_tensors; ++i) {
     if (s.seeds[i] >= s.clusters)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the seed of sub-tensor %zu is cluster %u (need less than %zu)", i, s.seeds[i],
-                    s.clusters);
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sub-tensor %zu starts in cluster %u (need less than %zu)",
+                    i, s.seeds[i], s.clusters);
     ++members[s.seeds[i]];
   }
   const auto empty = std::find(members.begin(), members.end(), std::size_t(0));
   if (empty != members.end())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "no sub-tensor is seeded in cluster %zu; each needs one",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "no sub-tensor starts in cluster %zu; each cluster needs at least one",
                   std::size_t(empty - members.begin()));
 }
 
@@ -78,8 +77,9 @@ void check_seeds(std::size_t sub_tensors, const ClusteredSettings& s) {
 
 void check_ranks(const Dimensions& dimensions, const std::vector<std::size_t>& ranks) {
   if (ranks.size() != dimensions.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%zu ranks for a tensor of order %zu; one per mode is needed",
-                  ranks.size(), dimensions.size());
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "got %zu ranks for a tensor of order %zu; need one for each mode", ranks.size(),
+                  dimensions.size());
   for (std::size_t n = 0; n < ranks.size(); ++n)
     if (ranks[n] < 1 || ranks[n] > dimensions[n])
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
@@ -98,19 +98,22 @@ void check_iterations(int iterations, double tolerance) {
 
 void check_clustered(const Dimensions& dimensions, const ClusteredSettings& s) {
   if (s.mode >= dimensions.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the clustered mode is mode %zu of a tensor of order %zu",
-                  s.mode + 1, dimensions.size());
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "mode %zu cannot be clustered, because the tensor has only %zu modes", s.mode + 1,
+                  dimensions.size());
   check_ranks(dimensions, s.ranks);
   check_iterations(s.iterations, s.tolerance);
   const std::size_t sub_tensors = dimensions[s.mode];
   if (s.clusters < 1 || s.clusters > sub_tensors)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "clusters are out of range (got %zu, need 1 to the %zu sub-tensors of mode %zu)",
+                  "the number of clusters is out of range (got %zu, need 1 to %zu, the number of sub-tensors "
+                  "of mode %zu)",
                   s.clusters, sub_tensors, s.mode + 1);
   if (s.mixture < 1 || s.mixture > s.clusters)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "mixture clusters are out of range (got %zu, need 1 to the %zu clusters)", s.mixture,
-                  s.clusters);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the number of mixed clusters is out of range (got %zu, need 1 to %zu, the number of clusters)",
+        s.mixture, s.clusters);
   if (s.nearest > 0 && s.mode != 0)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the nearest clusters can be tried in mode 1 only (mode %zu is clustered)", s.mode + 1);

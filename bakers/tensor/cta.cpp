@@ -181,7 +181,7 @@ double update(WorkingFit& fit, const TensorView& reduced, const ClusteredSetting
 
 ClusteredFit fit_cta(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress) {
   if (settings.mixture != 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "CTA mixes no clusters (got K = %zu, need 1); use K-CTA",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "CTA does not mix clusters (got K = %zu, need 1); use K-CTA",
                   settings.mixture);
   return iterate(a, settings, progress,
                  [&](WorkingFit& fit, const TensorView& reduced, int iteration, double objective) {

@@ -126,7 +126,9 @@ std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<
                                          std::size_t multiple) {
   check_tensor(a);
   if (share.size() != a.order() || multiple < 1)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%zu shares and multiples of %zu for a tensor of order %zu",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "got %zu shares and a multiple of %zu for a tensor of order %zu; need one share for each "
+                  "mode and a multiple of 1 or more",
                   share.size(), multiple, a.order());
   std::vector<std::size_t> ranks(a.order());
   for (std::size_t n = 0; n < a.order(); ++n) {

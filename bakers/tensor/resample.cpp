@@ -217,8 +217,8 @@ Mixture as_mixture(const Resampling& of, const MixedCells& cells) {
 Matrix atom_projections(const ClusteredFit& fit, const TensorView& a) {
   if (a.dimensions != fit.dimensions)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the tensor is not of the size that was fitted (%zu and %zu entries)", a.size(),
-                  volume(fit.dimensions));
+                  "the size of the tensor differs from the size of the fitted tensor (%zu and %zu entries)",
+                  a.size(), volume(fit.dimensions));
   const Tensor atoms = atoms_of(fit, dual_bases(fit));
   // If no mode is reduced, uses the tensor itself, without a copy.
   const auto is_empty = [](const Matrix& u) { return u.size() == 0; };
@@ -239,7 +239,7 @@ Mixture resample_map(const ClusteredFit& fit, const Matrix& projections, const M
   check_sizes(of.atoms, projections, weights);
   MixedCells cells = search_rows(of, projections, weights, pursuit);
   if (side * side != std::size_t(weights.rows()))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "weights of %zu cells, need %zu x %zu",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the weights have %zu cells, need %zu x %zu",
                   std::size_t(weights.rows()), side, side);
   cells.side = side;
   if (step_penalty > 0)

@@ -36,9 +36,10 @@ MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& b
       sum += distance;
     }
     if (sum == 0 && c + 1 < clusters)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "too many clusters for these points (got %zu, need at most %zu, the distinct points)",
-                    std::size_t(clusters), std::size_t(c + 1));
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "too many clusters for these points (got %zu, need at most %zu, the number of distinct points)",
+          std::size_t(clusters), std::size_t(c + 1));
     // Points at distance 0 are never drawn, even if rounding makes `left` reach the end.
     double left = uniform() * sum;
     for (Index i = 0; i < points.rows(); ++i) {
@@ -101,11 +102,11 @@ Groups lloyd(const MatrixXd& points, MatrixXd centres) {
 
 std::vector<std::uint32_t> seed_clusters(const Matrix& points, std::size_t clusters, std::uint64_t seed) {
   if (!points.allFinite())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a point to be clustered is not finite");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "one of the points to cluster is not finite");
   if (clusters < 1 || clusters > std::size_t(points.rows()))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "clusters are out of range (got %zu, need 1 to the %zu points)", clusters,
-                  std::size_t(points.rows()));
+                  "the number of clusters is out of range (got %zu, need 1 to %zu, the number of points)",
+                  clusters, std::size_t(points.rows()));
   const MatrixXd exact = points.cast<double>();
   std::mt19937_64 bits(seed);
   Groups best;
@@ -119,7 +120,8 @@ std::vector<std::uint32_t> seed_clusters(const Matrix& points, std::size_t clust
 Matrix sub_tensor_points(const TensorView& a, std::size_t mode) {
   check_tensor(a);
   if (mode >= a.order())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu of a tensor of order %zu", mode + 1, a.order());
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu does not exist in a tensor of order %zu", mode + 1,
+                  a.order());
   // uf(A) uf(A)^T = Q L Q^T. So the rows of Q L^(1/2) have the same inner products as the sub-tensors, and
   // also the same distances.
   const SymmetricEigen eigen = symmetric_eigen(gram(a, mode));

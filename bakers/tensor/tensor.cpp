@@ -120,8 +120,7 @@ void check_tensor(const TensorView& a) {
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu of the tensor has size 0 (need at least 1)",
                     n + 1);
   if (a.dimensions.empty() || !a.data)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the tensor is empty; entries in at least one mode are needed");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the tensor is empty; need entries in at least one mode");
   // If an entry is not finite, the sum is not finite either. Only then do we search for the entry.
   if (std::isfinite(block_sum(a.size(), [&](std::size_t i) { return double(a.data[i]); }))) return;
   const auto bad = std::size_t(
@@ -219,7 +218,8 @@ Tensor mode_product(const TensorView& a, std::size_t mode, const Matrix& u) {
 
 Tensor mode_products(const TensorView& a, const std::vector<Matrix>& u) {
   if (u.size() != a.order())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%zu matrices for a tensor of order %zu", u.size(), a.order());
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "got %zu matrices for a tensor of order %zu; need one for each mode", u.size(), a.order());
   for (std::size_t n = 0; n < u.size(); ++n)
     if (u[n].size() > 0) need_fit(a, n, u[n]);
   const std::vector<std::size_t> order = inner_order(u);

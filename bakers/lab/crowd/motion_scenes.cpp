@@ -43,7 +43,7 @@ std::uint32_t clip_named(const Hero& hero, const std::string& name) {
   for (std::uint32_t i = 0; i < hero.clips().size(); ++i)
     if (hero.character().name(NOOK_BAKE_NAME_CLIP, hero.clips()[i].index) == name) return i;
   throw std::runtime_error("motion: the character has no clip " + name +
-                           "; leave the character out to take the built-in one");
+                           "; leave out the character to use the built-in one");
 }
 
 }  // namespace

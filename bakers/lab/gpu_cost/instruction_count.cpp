@@ -202,7 +202,7 @@ InstructionCounts count_instructions(const std::string& disassembly, const std::
   bool same = spans.size() == loops.size();
   for (std::size_t i = 0; same && i < spans.size(); ++i) same = depth_of(spans, i) == loops[i].depth;
   if (!same)
-    throw std::runtime_error("the compiled loops are not those that the trip counts are for\n compiled:\n" +
+    throw std::runtime_error("the compiled loops differ from the loops that have trip counts\n compiled:\n" +
                              describe(blocks, spans) + " expected:\n" + describe(loops));
   InstructionCounts counts;
   for (std::size_t b = 0; b < blocks.size(); ++b) {

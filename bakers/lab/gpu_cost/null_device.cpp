@@ -263,7 +263,8 @@ CompiledShader NullDevice::Vulkan::executable(const VkPipelineExecutableInfoKHR&
         "vkGetPipelineExecutableInternalRepresentationsKHR");
   for (std::uint32_t i = 0; i < count; ++i)
     if (std::strstr(texts[i].name, "ssembly")) result.disassembly = contents[i].c_str();
-  if (result.disassembly.empty()) throw std::runtime_error("nook_gpu_cost: the driver gives no disassembly");
+  if (result.disassembly.empty())
+    throw std::runtime_error("nook_gpu_cost: the driver does not provide a disassembly");
   return result;
 }
 
@@ -283,7 +284,7 @@ CompiledShader NullDevice::Vulkan::result(VkPipeline pipeline, VkShaderStageFlag
                                std::to_string(executables[i].subgroupSize) + " lanes (need 64)");
     return executable({VK_STRUCTURE_TYPE_PIPELINE_EXECUTABLE_INFO_KHR, nullptr, pipeline, i});
   }
-  throw std::runtime_error("nook_gpu_cost: the pipeline has no executable of the stage");
+  throw std::runtime_error("nook_gpu_cost: the pipeline has no executable for the stage");
 }
 
 CompiledShader NullDevice::compute(const std::vector<std::uint32_t>& spirv,

@@ -149,8 +149,8 @@ PcaResult fit_pca(const RawMaterial& raw, std::size_t bytes, std::uint64_t seed)
   const std::size_t component_bytes = 2 * std::size_t(data.rows() + data.cols());
   result.components = std::min({bytes / component_bytes, std::size_t(data.rows()), std::size_t(data.cols())});
   if (result.components == 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%zu bytes hold no principal component of %zu bytes", bytes,
-                  component_bytes);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "%zu bytes are too few for one principal component of %zu bytes", bytes, component_bytes);
   result.bytes = result.components * component_bytes;
 
   Matrix basis(data.cols(), Index(result.components));

@@ -145,9 +145,10 @@ Sweep measure_sweep(const RawMaterial& raw, const CompressionSettings& settings,
                     std::span<const std::uint32_t> ranks, const MethodProgress& progress) {
   for (const std::uint32_t rank : ranks)
     if (rank == 0 || rank % settings.cluster_rank_view != 0 || rank > raw.views.size())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "a total view rank is %u; need multiples of the cluster rank %u up to the %zu views",
-                    rank, settings.cluster_rank_view, raw.views.size());
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "a total view rank is %u; need a multiple of the cluster rank %u, at most %zu, the number of views",
+          rank, settings.cluster_rank_view, raw.views.size());
   Sweep sweep;
   sweep.ranks.assign(ranks.begin(), ranks.end());
   sweep.series = {{Method::n_svd, 1, {}, {}},

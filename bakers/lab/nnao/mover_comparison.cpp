@@ -108,7 +108,8 @@ const MoverError& single_of(const MeasuredMover& mover, int taps) {
     return error.taps == taps && error.pass == MoverPass::single;
   });
   if (found == mover.errors.end())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "movers: no single frame of %d taps", taps);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "movers: there is no row for a single frame with %d taps",
+                  taps);
   return *found;
 }
 

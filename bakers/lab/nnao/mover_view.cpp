@@ -39,7 +39,7 @@ MovingBody walking_body(const bake::ImportedCharacter& character, std::size_t cl
 
 std::size_t walking_clip(const bake::ImportedCharacter& character, const std::string& name) {
   if (character.clips.empty())
-    throw Failure(NOOK_ERROR_BAD_FILE, "the file has no clip, need one that walks");
+    throw Failure(NOOK_ERROR_BAD_FILE, "the file has no clip; give a file with a walking clip");
   if (!name.empty()) return bake::find_clip(character, name);
   const auto found =
       std::ranges::find_if(character.clips, [](const bake::Clip& clip) { return is_walk(clip.name); });

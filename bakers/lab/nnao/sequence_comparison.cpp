@@ -91,7 +91,8 @@ double mse_where(std::span<const float> ao, const MeasuredView& view,
 const SequenceError& error_of(const SequenceView& view, int taps, int frames) {
   for (const SequenceError& error : view.errors)
     if (error.taps == taps && error.frames == frames) return error;
-  throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sequences: no row of %d taps and %d frames", taps, frames);
+  throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sequences: there is no row for %d taps and %d frames", taps,
+                frames);
 }
 
 // Returns a column's value for one view and pass.
@@ -261,7 +262,7 @@ SequenceView measure_sequence(platform::Context& context, const MeasuredView& vi
   request.radius = view.radius;
   const Path path = path_of(view);
   if (path.frames.size() != sequence_frames)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sequences: a path of %zu frames, need %zu",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "sequences: the path has %zu frames, need %zu",
                   path.frames.size(), sequence_frames);
   std::deque<GpuView> images;
   for (const TracedView* frame : path.frames) images.emplace_back(gl, *frame);

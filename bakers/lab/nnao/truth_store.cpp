@@ -43,7 +43,7 @@ Truth unpack(std::span<const std::byte> bytes, std::uint64_t key, std::size_t pi
   for (std::size_t i = 0; i < pixels; ++i) truth.ao.push_back(reader.f32());
   const std::size_t body = bytes.size() - reader.remaining();
   if (reader.u64() != hash64(bytes.first(body), key) || reader.remaining() != 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "a kept reference is damaged");
+    throw Failure(NOOK_ERROR_BAD_FILE, "a stored reference is damaged");
   return truth;
 }
 

@@ -33,9 +33,9 @@ void check_movers(const EvaluateNnaoOptions& options) {
   }
   if (!options.temporal || !options.scenes.cameras.empty() || !options.scenes.radii.empty() ||
       !options.references.empty())
-    throw ToolError(
-        exit_bad_arguments,
-        "evaluate nnao: --mover needs --temporal, and does not go with --camera, --radius or --references");
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: --mover needs --temporal, and cannot be combined with --camera, --radius "
+                    "or --references");
   for (std::size_t i = 0; i < options.movers.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (options.movers[i].stem() == options.movers[j].stem())
@@ -51,14 +51,14 @@ void check_options(const EvaluateNnaoOptions& options) {
   const int works = int(has_scenes) + int(!options.tune.empty()) + int(!options.frames.empty()) +
                     int(!options.movers.empty());
   if (works != 1)
-    throw ToolError(
-        exit_bad_arguments,
-        "evaluate nnao: need scenes (files, --views or --thin), or --frame, or --mover, or else --tune");
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: nothing to do; give scenes (files, --views or --thin), or --frame, "
+                    "--mover or --tune");
   if (!options.frames.empty() &&
       (!options.markdown.empty() || !options.scenes.cameras.empty() || !options.scenes.radii.empty()))
-    throw ToolError(
-        exit_bad_arguments,
-        "evaluate nnao: --frame does not go with --markdown, --camera or --radius, which are for scenes");
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: --frame cannot be combined with --markdown, --camera or --radius, which "
+                    "are for scenes");
   check_movers(options);
   if (options.intensity != 1 && (!has_scenes || options.bent || options.temporal))
     throw ToolError(exit_bad_arguments,
@@ -66,9 +66,10 @@ void check_options(const EvaluateNnaoOptions& options) {
   if (options.temporal &&
       ((!has_scenes && options.movers.empty()) || options.bent || !options.methods.empty() ||
        !options.network.empty() || !options.ratios.empty() || (has_scenes && !options.images.empty())))
-    throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: --temporal needs scenes or --mover. It does not go with --bent-normals, "
-                    "--methods, --network or --ratio, and goes with --images only beside --mover");
+    throw ToolError(
+        exit_bad_arguments,
+        "evaluate nnao: --temporal needs scenes or --mover. It cannot be combined with --bent-normals, "
+        "--methods, --network or --ratio, and with --images only if --mover is given");
   if (!options.views.empty() && !options.scenes.files.empty())
     throw ToolError(exit_bad_arguments, "evaluate nnao: --views brings its own scenes; leave out the files");
 }

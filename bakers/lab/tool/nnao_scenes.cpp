@@ -197,7 +197,7 @@ ViewsFile read_views_file(const std::filesystem::path& path, const std::filesyst
 void keep_sources(std::vector<SceneRequest>& scenes, const std::vector<std::string>& sources) {
   for (const std::string& source : sources)
     if (std::ranges::find(scenes, source, &SceneRequest::source) == scenes.end())
-      throw ToolError(exit_bad_arguments, "evaluate nnao: --sources: the list has no " + source);
+      throw ToolError(exit_bad_arguments, "evaluate nnao: --sources: the list has no scene from " + source);
   if (!sources.empty())
     std::erase_if(scenes, [&](const SceneRequest& scene) {
       return std::ranges::find(sources, scene.source) == sources.end();

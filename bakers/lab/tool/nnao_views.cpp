@@ -91,7 +91,8 @@ void check_methods(const std::vector<std::string>& methods, const std::string& o
   for (const std::string& method : methods)
     for (const std::string of_file : {"nnao_paper", "nnao_file"})
       if (method.substr(0, method.find(':')) == of_file && of_file != other)
-        throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: --network gives no " + method);
+        throw ToolError(exit_bad_arguments,
+                        "evaluate nnao: --methods: the file of --network does not provide " + method);
   for (const std::string& method : methods)
     for (const std::string& of_frames : frame_method_names())
       if (method.substr(0, method.find(':')) == of_frames)
@@ -149,7 +150,8 @@ Json evaluate_views(EvaluateNnaoOptions& options) {
   const std::vector<MeasuredView> views = traced_views(work, options);
   const Comparison comparison = compare_views(options, *context, networks, views);
   if (comparison.rows.empty())
-    throw ToolError(exit_bad_arguments, "evaluate nnao: --methods: none is measured with these taps");
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: --methods: none of these methods is measured with these taps");
   if (!options.images.empty()) {
     write_sheets(options.images, views, comparison.images);
     // No network pictures are written for a list of views, because it has too many views.

@@ -14,9 +14,8 @@ using namespace bake;
 void require_same(const char* what, std::size_t got, std::size_t needed) {
   if (got != needed)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the model was not baked from this character (%s: got %zu, need %zu); bake it again, or "
-                  "choose the meshes of "
-                  "its bake (--mesh, --without)",
+                  "the model was not baked from this character (%s: got %zu, need %zu); bake the model "
+                  "again, or choose the meshes of its bake (--mesh, --without)",
                   what, got, needed);
 }
 
@@ -46,13 +45,14 @@ EvaluatedPoses choose_poses(const ImportedCharacter& character, const Recipe* re
   EvaluatedPoses result;
   if (choice.training) {
     if (!recipe)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "--poses training needs a model that holds its recipe; use --poses clips");
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "--poses training needs a model that contains the recipe of its training poses; use --poses clips");
     result.poses = recipe_poses(character, *recipe);
     if (result.poses.empty())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "--poses training: the model was fitted only to poses of its host, which cannot be "
-                    "made again; use --poses clips");
+                    "--poses training: the model was fitted only to poses that its host gave, which cannot "
+                    "be made again; use --poses clips");
     result.protocol = "training poses";
     thin_out(result.poses, choice.most);
     return result;

@@ -186,11 +186,10 @@ Json composite_rows(platform::Context& context, std::span<const MeasuredRoom> ro
     const std::vector<bake::nnao::Camera> cameras =
         cameras_at(room, figures, study.views, study.width, study.height, mix_bits(study.truth.seed));
     if (cameras.empty())
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "%s has no place to stand in or to look from (got %zu characters in it); need level ground "
-          "with 2 m above it, in metres and +y up",
-          measured.name.c_str(), figures.size());
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "%s has no place where a character can stand or a camera can look from (placed %zu "
+                    "characters); need level ground with 2 m of free height, in metres with +y up",
+                    measured.name.c_str(), figures.size());
     std::vector<Capsule> casters;
     for (const Figure& figure : figures) {
       const std::vector<Capsule> own =

@@ -93,8 +93,9 @@ std::vector<LevelError> measure_levels(const RawMaterial& raw, const MaterialTab
 
 BtfError measure_tables(const RawMaterial& raw, const MaterialTables& tables) {
   if (tables.btf.width != raw.width || tables.btf.height != raw.height)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the tables have %u x %u texels, the raw material has %u x %u",
-                  tables.btf.width, tables.btf.height, raw.width, raw.height);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the tables have %u x %u texels, but the raw material has %u x %u", tables.btf.width,
+                  tables.btf.height, raw.width, raw.height);
   const Matrix lights = light_rows(raw, tables);
   const std::size_t views = raw.views.size(), texels = raw.texels();
   std::vector<BtfError> part(views);

@@ -216,7 +216,7 @@ UnseenError measure_unseen(const RawMaterial& unseen, const Material& material) 
 std::vector<GrazingError> measure_grazing(const RawMaterial& raw, const MaterialTables& tables) {
   if (tables.btf.width != raw.width || tables.btf.height != raw.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the material has %u x %u texels, the raw material has %u x %u", tables.btf.width,
+                  "the material has %u x %u texels, but the raw material has %u x %u", tables.btf.width,
                   tables.btf.height, raw.width, raw.height);
   std::vector<std::size_t> views;
   for (std::size_t view = 0; view < raw.views.size(); ++view)

@@ -9,7 +9,7 @@ namespace {
 const char* shader_text(ShaderTable shaders, const std::string& path) {
   for (const EmbeddedShader& shader : shaders)
     if (path == shader.path) return shader.text;
-  throw Failure(NOOK_ERROR_INTERNAL, "no shader %s in this build", path.c_str());
+  throw Failure(NOOK_ERROR_INTERNAL, "this build does not contain the shader %s", path.c_str());
 }
 
 GLuint linked(const GladGLContext& gl, ShaderTable shaders, const std::string& path,

@@ -54,7 +54,7 @@ constexpr std::size_t most_draws = 1000;
 
 [[noreturn]] void no_place(const char* where) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "hardly any place %s lies in the grid's box; give the scene that the grid was baked from",
+                "almost no place %s lies in the grid's box; give the scene that the grid was baked from",
                 where);
 }
 

@@ -185,8 +185,7 @@ Json probe_file_row(const bake::Environment& map, const std::string& map_name, c
                     const nook::probe::Probes& probes) {
   if (probes.grid.size() != 1)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "holds a grid of %zu probes, and a map alone is not enough to measure a grid; give --scene "
-                  "and --light",
+                  "contains a grid of %zu probes, which a map alone cannot measure; give --scene and --light",
                   std::size_t(probes.grid.size()));
   const Json errors = probe_errors(map, probes);
   Json row{{"map", map_name},

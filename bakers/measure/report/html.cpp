@@ -15,7 +15,8 @@ std::string_view template_text(std::string_view name) {
   const auto* const found =
       std::find_if(templates_begin(), templates_end(), [&](const Template& t) { return t.name == name; });
   if (found == templates_end())
-    throw Failure(NOOK_ERROR_INTERNAL, "the page has no template %.*s", int(name.size()), name.data());
+    throw Failure(NOOK_ERROR_INTERNAL, "the page does not contain the template %.*s", int(name.size()),
+                  name.data());
   return found->text;
 }
 
@@ -150,7 +151,7 @@ Html fill(std::string_view template_name, const std::vector<std::pair<std::strin
         rest.substr(open + 2, close == std::string_view::npos ? close : close - open - 2);
     const auto value = std::ranges::find(values, name, &std::pair<std::string_view, Html>::first);
     if (close == std::string_view::npos || value == values.end())
-      throw Failure(NOOK_ERROR_INTERNAL, "the template %.*s names %.*s, which has no value",
+      throw Failure(NOOK_ERROR_INTERNAL, "the template %.*s uses %.*s, which has no value",
                     int(template_name.size()), template_name.data(), int(name.size()), name.data());
     page.append(rest.substr(0, open));
     page.append(value->second);

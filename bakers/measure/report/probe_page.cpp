@@ -156,7 +156,8 @@ void add_map(PageParts& parts, Measures& measures, const Probes& probes, const E
 PageParts probe_parts(const Probes& probes, const Environment* map) {
   const bool is_grid = probes.grid.size() > 1;
   if (map && is_grid)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "a grid of probes is not the light of one map; give no map");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "a grid of probes cannot be compared with one map; leave the map out");
   const Lit lit = light_of(probes);
   Measures measures;
   measures.value["probes"] = double(probes.grid.size());

@@ -37,8 +37,9 @@ void require_exportable(const CharacterModel& model) {
   if (model.world_casters.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the model has no world casters; bake the character again");
   if (model.bind.empty())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the model does not know the spaces of its joints; bake the character from its glTF file");
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the model does not contain the joint spaces of its bones; bake the character from its glTF file");
 }
 
 float ao_factor(const WorldCaster& caster, CasterRadii radii) {

@@ -202,7 +202,7 @@ TEST_CASE("a neural material is a job as the others are") {
   measured.desc.neural_channels = 8;
   measured.desc.neural_steps = 0;
   CHECK(measured.start(&handle) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("steps of a training is 0"));
+  CHECK(message_has("training steps is 0"));
 }
 
 TEST_CASE("a built-in structure: the same bytes on any number of threads, another seed another file") {

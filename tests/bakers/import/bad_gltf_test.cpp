@@ -222,7 +222,7 @@ TEST_CASE("faults of nodes") {
   }
   SECTION("a child that is not there") {
     nodes[2]["children"] = Json::array({17});
-    check_refused(file, "child 17");
+    check_refused(file, "refers to node 17 as a child");
   }
   SECTION("a mesh that is not there") {
     nodes[3]["mesh"] = 5;

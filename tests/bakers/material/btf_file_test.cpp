@@ -116,7 +116,7 @@ TEST_CASE("faults of a .btf file are named, and no part of one is read past its 
     REQUIRE(!refusal({good.begin(), good.begin() + std::ptrdiff_t(size)}).empty());
   std::vector<std::byte> longer = good;
   longer.push_back({});
-  CHECK(refusal(longer).find("1 bytes are left over") != std::string::npos);
+  CHECK(refusal(longer).find("has 1 bytes after its last channel") != std::string::npos);
   CHECK(refusal(good, 5).find("5 texels is larger than the image (4 x 5)") != std::string::npos);
   CHECK_THROWS_AS(read_btf_file(good, 0, 100), Failure);
   const auto changed = [](auto&& change) {

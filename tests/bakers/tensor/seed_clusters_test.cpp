@@ -45,7 +45,7 @@ TEST_CASE("points of sub-tensors have their distances") {
 TEST_CASE("what cannot be grouped is refused") {
   Matrix points = Matrix::Zero(6, 2);
   points(1, 0) = 1;
-  CHECK(test::says(test::failure_of([&] { seed_clusters(points, 7); }), "got 7, need 1 to the 6"));
+  CHECK(test::says(test::failure_of([&] { seed_clusters(points, 7); }), "got 7, need 1 to 6"));
   CHECK(test::says(test::failure_of([&] { seed_clusters(points, 0); }), "got 0"));
   CHECK(test::says(test::failure_of([&] { seed_clusters(points, 3); }), "distinct"));
   CHECK(seed_clusters(points, 2)[1] != seed_clusters(points, 2)[0]);
