@@ -11,7 +11,7 @@ const wasm = readFileSync(join(folder, "nook.wasm"));
 // Without a server, from its own folder; from bytes; and what is told where that fails.
 assert.equal((await load()).version, (await load({ wasm })).version);
 await assert.rejects(load({ wasm: new URL("missing.wasm", import.meta.url) }), /nook-web: .*missing\.wasm .*load\(\{ wasm \}\)/);
-await assert.rejects(load({ wasm: wasm.subarray(0, 1000) }), /nook-web: the module of WebAssembly cannot be loaded \(/);
+await assert.rejects(load({ wasm: wasm.subarray(0, 1000) }), /nook-web: the WebAssembly module cannot be loaded \(/);
 // The glue names the file that the package has, so that bundlers find it.
 for (const [, name] of readFileSync(join(folder, "nook.mjs"), "utf8").matchAll(/["'`]([\w.]+\.wasm)["'`]/g)) assert.equal(name, "nook.wasm");
 const nook = await load({ wasm });
@@ -24,7 +24,7 @@ assert.throws(() => nook.loadCharacter(new Uint8Array(10)), (error) => error ins
 assert.throws(() => nook.createScene({ cutoff: 1 }), /nook_scene_desc has no cutoff; it has .*cutoffError/);
 assert.throws(() => nook.createScene({ form: "both" }), /form is unknown \(got "both", need default, paper\)/);
 assert.throws(() => nook.createScene({ groundRadius: -1 }), /nook_scene_create: .*ground_radius/);
-assert.throws(() => nook.createGl({}), /no WebGL2RenderingContext/);
+assert.throws(() => nook.createGl({}), /not a WebGL2RenderingContext/);
 
 // Rest-to-world matrices and skinning matrices of one pose agree.
 const model = nook.loadCharacter(readFileSync(join(data, "character.nook")));

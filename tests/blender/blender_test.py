@@ -214,7 +214,7 @@ def test_trust(path, folder, preferences):
     fails_with(bpy.ops.nook.show, ["\\u202e\\u000a\\u001b"])
     for value in (7, [1.0, 2.0], ""):
         armature["nook_folder"] = value
-        fails_with(bpy.ops.nook.show, ["names no folder"])
+        fails_with(bpy.ops.nook.show, ["does not name a folder"])
     armature["nook_folder"] = str(folder)
     part = bpy.context.scene.nook_characters[0].parts[0]
     part.vertices += 1

@@ -86,7 +86,7 @@ def test_hidden():
     check(armature.hide_get() and body.hide_select, "hidden and not selectable as before")
     cuff.hide_set(True)
     bpy.ops.nook.bake()
-    check("Cuff is hidden in the view, but rendered" in says(armature), "a hidden mesh that is rendered is part of the character, which is said")
+    check("Cuff is hidden in the view, but visible in renders" in says(armature), "a hidden mesh that is rendered is part of the character, which is said")
 
 
 def test_linked():
@@ -162,7 +162,7 @@ def test_held():
     bpy.context.view_layer.update()
     bpy.ops.nook.bake()
     parts = [body, cuff, helmet, eye, shield]
-    check("does not know" not in says(armature), "what hangs on bones is measured as right")
+    check("differently from the bake" not in says(armature), "what hangs on bones is measured as right")
     check({n["name"] for n in document(FOLDER / "held/Rig.glb")["nodes"] if "mesh" in n} == {o.name for o in parts},
           "helmet, sword and shield on bones are in the file")
     check_colours(parts, "with a helmet, a sword and a shield on bones")
@@ -178,7 +178,7 @@ def test_left_out():
     boxes[0].display_type, boxes[1].hide_render = "WIRE", True
     bpy.ops.nook.bake()
     check({n["name"] for n in document(FOLDER / "left out/Rig.glb")["nodes"] if "mesh" in n} == {"Limb", "Cuff"}, "collision boxes are not in the file")
-    check(all(words in says(armature) for words in ("Wire is drawn as a wireframe", "Off is disabled for renders", "Loose hangs on no bone")),
+    check(all(words in says(armature) for words in ("Wire is drawn as a wireframe", "Off is disabled for renders", "Loose is not attached to a bone")),
           "the panel says what is left out and why")
     check_colours([body, cuff], "beside a collision box")
 
@@ -188,7 +188,7 @@ def test_switched_off():
     body.modifiers[0].show_viewport = body.modifiers[0].show_render = False
     bpy.context.scene.frame_set(1)
     bpy.ops.nook.bake()
-    check("does not know" in says(armature) and "Armature of Limb is off in views" in says(armature),
+    check("differently from the bake" in says(armature) and "Armature of Limb is off in views" in says(armature),
           "an armature modifier that is off is said, though the current pose is the rest pose")
     armature, body, cuff = fresh("masked")
     group = body.vertex_groups.new(name="half")
@@ -196,7 +196,7 @@ def test_switched_off():
         group.add([vertex.index], 0.5 if vertex.co.x > 1.5 else 1.0, "REPLACE")
     body.modifiers[0].vertex_group = "half"
     bpy.ops.nook.bake()
-    check("does not know" not in says(armature), "a masked armature modifier is part of the bake")
+    check("differently from the bake" not in says(armature), "a masked armature modifier is part of the bake")
     # Half a bend squashes the end: skinned normals differ there from the normals of the squashed faces, with which the test traces.
     check_colours([body, cuff], "with a masked armature modifier", allowed=0.05)
 
@@ -207,7 +207,7 @@ def test_other_modifiers():
     smooth.factor, smooth.iterations = 1.0, 60
     armature.scale = (0.5, 0.5, 0.9)
     bpy.ops.nook.bake()
-    check("does not know" in says(armature) and "Limb has other modifiers (Shrink)" in says(armature) and "m apart" in says(armature),
+    check("differently from the bake" in says(armature) and "Limb has other modifiers (Shrink)" in says(armature) and "m apart" in says(armature),
           "a modifier that moves vertices is said: " + says(armature).replace("\n", " "))
     body.modifiers.remove(smooth)
     body.modifiers.new("Finer", "SUBSURF").levels = 1
@@ -252,7 +252,7 @@ def test_unsaved():
     fresh("unsaved")
     for folder in ("//bake", "bake"):
         bpy.context.scene.nook.folder = folder
-        fails_with(bpy.ops.nook.bake, [f"folder {folder} is relative", "save it first"])
+        fails_with(bpy.ops.nook.bake, [f"folder {folder} is relative", "save the file first"])
     check(not os.path.exists("bake"), "nothing was written into the working folder")
 
 
@@ -300,7 +300,7 @@ def test_both_errors():
     armature, _, _ = fresh("errors")
     bpy.ops.nook.bake()
     text = says(armature)
-    check("with the bake's normals" in text and "with Blender's" in text and "does not know" not in text,
+    check("with the bake's normals" in text and "with Blender's" in text and "differently from the bake" not in text,
           "the panel has both errors: " + text.replace("\n", " "))
 
 

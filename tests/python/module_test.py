@@ -158,7 +158,7 @@ class Characters(unittest.TestCase):
             nook.evaluate_pose(self.model, np.zeros((3, 3, 4)))
         with self.assertRaisesRegex(ValueError, "draft, production, standard"):
             nook.bake_character(self.character, preset="best")
-        with self.assertRaisesRegex(TypeError, "'ray' is no setting of a character"):
+        with self.assertRaisesRegex(TypeError, "'ray' is not a setting of a character"):
             nook.bake_character(self.character, ray=3)
         with self.assertRaisesRegex(ValueError, "whole numbers"):
             nook.trace_ao([(np.zeros((3, 3)), [[0, 1, -1]])], np.zeros((1, 3)), [[0, 1, 0]])
@@ -569,11 +569,11 @@ class Arguments(unittest.TestCase):
         self.assertEqual(self.model.skins, [nook.Skin(0, 2)])
         moved = self.model.convert_pose(pose, place=[[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0]])
         np.testing.assert_allclose(moved[:, 0, 3], pose[:, 0, 3] + 2, atol=1e-6)
-        with self.assertRaisesRegex(ValueError, "kind: 'joints' is none of rest_to_world, joint_to_world, skinning"):
+        with self.assertRaisesRegex(ValueError, "kind: 'joints' is not one of rest_to_world, joint_to_world, skinning"):
             self.model.convert_pose(pose, "joints")
         with self.assertRaisesRegex(ValueError, "pose: has the shape"):
             self.model.convert_pose(skinning[:1], "skinning")
-        with self.assertRaisesRegex(ValueError, "skin: 1 is none of 0"):
+        with self.assertRaisesRegex(ValueError, "skin: 1 is not one of 0"):
             self.model.convert_pose(skinning, "skinning", skin=1)
 
     def test_triangles_tell_the_sides_of_a_card_apart(self):

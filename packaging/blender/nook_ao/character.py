@@ -132,7 +132,7 @@ def reason_to_leave_out(item, armature, rendered):
     if not item.data.polygons:
         return "has no faces"
     if not is_deformed(item, armature) and hanging_place(item, armature) is None:
-        return "hangs on no bone"
+        return "is not attached to a bone"
     return None
 
 
@@ -185,7 +185,7 @@ def check_paintable(armature, parts, scenes):
         mesh = part.item.data
         users = sorted({o.name for scene in scenes for o in scene.objects if o.data == mesh})
         if len(users) > 1:
-            raise Fault(f"the objects {', '.join(users)} share the mesh {mesh.name}, which keeps one set of colours; select them and choose "
+            raise Fault(f"the objects {', '.join(users)} share the mesh {mesh.name}, which can keep only one set of colours; select the objects and choose "
                         "Object > Relations > Make Single User > Object & Data")
 
 

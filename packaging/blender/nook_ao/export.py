@@ -64,7 +64,7 @@ class Geometry:
         self.parents = [at[b.parent.name] if b.parent is not None else -1 for b in bones]
         world = character.matrix(armature.matrix_world)
         if not abs(np.linalg.det(world)) > 0:
-            raise Fault(f"the armature {armature.name} has a scale of zero; give it another one")
+            raise Fault(f"the armature {armature.name} has a scale of zero; change the scale")
         # If the armature is mirrored, the file has a mirrored body on an unmirrored armature. Programs that
         # read the file then need not handle mirroring.
         self.mirror = np.diag([-1.0, 1, 1, 1]) if np.linalg.det(world) < 0 else np.eye(4)
@@ -74,7 +74,7 @@ class Geometry:
         for part in parts:
             surface = Surface(part.item.data)
             if not np.isfinite(surface.positions).all():
-                raise Fault(f"the mesh {part.item.name} has vertices that are at no finite place; remove them")
+                raise Fault(f"the mesh {part.item.name} has vertices whose positions are not finite; remove these vertices")
             surface.move(self.mirror @ part.bind_matrix(armature))
             slots = [m.name if m is not None else "" for m in part.item.data.materials]
             self.meshes.append((part.item.name, surface, *weights_of(part, armature, at), first, slots))

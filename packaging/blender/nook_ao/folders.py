@@ -22,9 +22,9 @@ _temporary = []
 def resolved(folder, owner):
     """Returns the absolute path of a folder that a file names. A property of a file can have any content."""
     if not isinstance(folder, str) or not folder:
-        raise Fault(f"{owner} names no folder (got {folder!r}); bake again")
+        raise Fault(f"{owner} does not name a folder (got {folder!r}); bake again")
     if is_relative(folder) and not bpy.data.filepath:
-        raise Fault(f"the folder {folder} is relative to the .blend, which is not saved; save it first, or choose a folder by its whole path")
+        raise Fault(f"the folder {folder} is relative to the .blend file, which has not been saved; save the file first, or choose a folder by its absolute path")
     return os.path.normpath(bpy.path.abspath(as_relative(folder)))
 
 

@@ -16,7 +16,7 @@ def load(paths):
     """Returns the module. Its shared libraries are loaded from `paths`, or from the system's places if
     `paths` is empty."""
     if nook is None:
-        raise Fault("the Python module nook is missing; install the add-on from the .zip file of a release, which holds it")
+        raise Fault("the Python module nook is missing; install the add-on from the .zip file of a release, which contains the module")
     if paths:
         for path in paths.split(os.pathsep):
             if not os.path.isfile(path):

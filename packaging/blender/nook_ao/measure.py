@@ -201,7 +201,7 @@ def text_of(errors, stills, why):
     lines = [f"Error in {len(stills)} poses: {errors['bake']:.3f} with the bake's normals",
              f"and {errors['blender']:.3f} with Blender's; the model's own: {errors['model']:.3f}"]
     if why:
-        lines += ["Blender shows what the bake does not know:", *why]
+        lines += ["Blender shows the character differently from the bake:", *why]
     return lines
 
 
@@ -221,7 +221,7 @@ def after_bake(context, entry, actions):
     apart = max(s.distance for s in stills if np.isfinite(s.distance)) if any(np.isfinite(s.distance) for s in stills) else 0.0
     why = []
     if errors["bake"] > errors["model"] + ALLOWED or apart > 10 * NEAR * size:
-        why = reasons(entry, stills) or ["the mesh is another one than the baked one; bake again"]
+        why = reasons(entry, stills) or ["the mesh differs from the mesh that was baked; bake again"]
         if apart > NEAR * size:
             why.append(f"vertices are up to {apart:.3g} m apart")
     if any(shear_of(still.pose) > SHEAR for still in stills):

@@ -196,7 +196,7 @@ _baking = set()
 @contextlib.contextmanager
 def alone(record_key, name):
     if record_key in _baking:
-        raise Fault(f"the character {name} is being baked; wait for its end, or press Escape in the window to end it")
+        raise Fault(f"the character {name} is being baked; wait until the bake ends, or press Escape in the window to cancel the bake")
     _baking.add(record_key)
     try:
         yield
@@ -254,7 +254,7 @@ class NOOK_OT_bake(CommandOperator):
         key, name = records.make(scene, armature).key, armature.name
         self.is_kept, names = False, [p.item.name for p in parts]
         self._others = [f"Left out: {item} {reason}" for item, reason in left_out]
-        self._others += [f"Part of it: {p.item.name} is hidden in the view, but rendered" for p in parts if not p.item.visible_get()]
+        self._others += [f"Part of the bake: {p.item.name} is hidden in the view, but visible in renders" for p in parts if not p.item.visible_get()]
         action_names = [a.name for a in actions]
         try:
             with alone(key, name), scratch(folder) as temporary:
@@ -282,7 +282,7 @@ class NOOK_OT_bake(CommandOperator):
             yield f"action {at + 1} of {len(names)}"
             rig, action = records.find_key(key).rig if records.find_key(key) else None, bpy.data.actions.get(name)
             if rig is None or action is None:
-                raise Fault(f"the armature or the action {name} is gone; bake again")
+                raise Fault(f"the armature or the action {name} no longer exists; bake again")
             for clip in clips.sample(rig, action, rate):
                 yield None
             sampled.append(clip)
@@ -298,7 +298,7 @@ class NOOK_OT_bake(CommandOperator):
             rig = bpy.data.objects.get(name)
             record = records.make(context.scene, rig) if rig is not None else None
         if record is None or record.rig is None or None in items:
-            raise Fault(f"the armature {name} or a mesh of it is gone; nothing was written")
+            raise Fault(f"the armature {name} or one of its meshes no longer exists; nothing was written")
         record.key = key
         files = records.free_files(folder, record.rig.name, key)
         try:
@@ -328,7 +328,7 @@ class NOOK_OT_bake(CommandOperator):
         entry.record.says = "\n".join([*lines, *self._others])
         self.report({"INFO"}, "Nook: " + " ".join(lines[:2]))
         if why:
-            self.report({"WARNING"}, "Nook: Blender shows what the bake does not know: " + "; ".join(why))
+            self.report({"WARNING"}, "Nook: Blender shows the character differently from the bake: " + "; ".join(why))
 
 
 def find_again(item, name):
@@ -383,7 +383,7 @@ class NOOK_OT_trace(bpy.types.Operator):
             depsgraph = context.evaluated_depsgraph_get()
             pose = entry.pose(depsgraph)
             if pose is None:
-                raise Fault(f"this view does not evaluate {entry.armature.name}; show its collection")
+                raise Fault(f"this view does not show the armature {entry.armature.name}; show its collection")
             rays = records.setting(entry.armature, context.scene, "rays")
             entry.paint(shown.AO, entry.to_vertices(entry.evaluate(pose, False)))
             entry.painted = None
@@ -399,7 +399,7 @@ class NOOK_OT_trace(bpy.types.Operator):
         entry.follow(depsgraph, records.setting(entry.armature, context.scene, "ground"))
         entry.paint(shown.TRACED, entry.to_vertices(entry.trace(pose, rays)))
         entry.record.says = "\n".join(measure.text_of(errors, [still], []))
-        self.report({"INFO"}, f"Nook: the root of the mean squared error of this frame, over what is seen, is {errors['bake']:.3f} with the bake's "
+        self.report({"INFO"}, f"Nook: the root mean square error of this frame, over all visible points, is {errors['bake']:.3f} with the bake's "
                     f"normals and {errors['blender']:.3f} with Blender's")
         return {"FINISHED"}
 

@@ -26,14 +26,14 @@ def find_rest_matrix(bound, rest):
     terms = np.column_stack([bound - centre, np.ones(len(bound))])
     solution, _, rank, _ = np.linalg.lstsq(terms, rest, rcond=1e-9)
     if rank < 4:
-        raise Fault("the character is flat in its rest pose, so that its place in the file cannot be found; give it some depth")
+        raise Fault("the character is flat in its rest pose, so its position in the exported file cannot be determined; give the character some depth")
     matrix = np.eye(4)
     matrix[:3, :3] = solution[:3].T
     matrix[:3, 3] = solution[3] - matrix[:3, :3] @ centre
     size = np.linalg.norm(np.ptp(rest, axis=0))
     deviation = np.abs(moved(matrix, bound) - rest).max()
     if not deviation <= REST_TOLERANCE * size:
-        raise Fault(f"the vertices of the exported file are not those of the mesh ({deviation:.3g} m apart); bake again after a change of the mesh")
+        raise Fault(f"the vertices of the exported file do not match the mesh (they are {deviation:.3g} m apart); bake again after you change the mesh")
     return matrix
 
 

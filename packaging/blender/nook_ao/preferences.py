@@ -12,9 +12,9 @@ OVERRIDABLE = {"LIBRARY_OVERRIDABLE"}
 class NookPreferences(bpy.types.AddonPreferences):
     bl_idname = __package__
 
-    tool: bpy.props.StringProperty(name="Command", subtype="FILE_PATH", description="The command nook; empty: on the search path of the system")
+    tool: bpy.props.StringProperty(name="Command", subtype="FILE_PATH", description="Path of the command nook. If empty, the command is searched on the search path of the system")
     library: bpy.props.StringProperty(name="Library", subtype="FILE_PATH",
-                                      description="libnook_python, or libnook and libnook_bake; empty: where the system has them")
+                                      description="libnook_python, or libnook and libnook_bake. If empty, the libraries are loaded from where the system has them")
 
     def draw(self, _context):
         self.layout.prop(self, "tool")
@@ -33,13 +33,13 @@ class NookSettings(bpy.types.PropertyGroup):
     preset: bpy.props.EnumProperty(name="Preset", items=PRESETS, default="draft", override=OVERRIDABLE, description="How long the bake may take")
     poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", override=OVERRIDABLE, description="Poses that the bake learns from")
     without: bpy.props.StringProperty(name="Leave out", default="", override=OVERRIDABLE,
-                                      description="Names of objects that are no part of the bake, such as spare weapons, separated by "
+                                      description="Names of objects that are not part of the bake, such as spare weapons, separated by "
                                       "commas; * and ? stand for any text and any character. Lower levels of detail (LOD1 and so on) "
                                       "are always left out")
     ground: bpy.props.BoolProperty(name="Ground", default=False, override=OVERRIDABLE,
                                    description="A floor at the height of zero darkens the character from below")
     folder: bpy.props.StringProperty(name="Folder", subtype="DIR_PATH", default="", override=OVERRIDABLE, update=confirm_chosen,
-                                     description="Where the files of the bake are kept, by the name of the armature; empty: a temporary folder")
+                                     description="The folder for the files of the bake, which have the name of the armature. If empty, a temporary folder is used")
     rays: bpy.props.IntProperty(name="Rays", default=256, min=16, max=16384, override=OVERRIDABLE,
                                    description="Rays for each vertex of a traced frame")
 
@@ -61,7 +61,7 @@ def register():
     bpy.utils.register_class(NookSettings)
     bpy.types.Object.nook = bpy.props.PointerProperty(type=NookSettings, override=OVERRIDABLE)
     bpy.types.Scene.nook = bpy.props.PointerProperty(type=NookSettings)
-    bpy.types.Action.nook_bake = bpy.props.BoolProperty(name="Bake", default=False, description="Nook's bakes of rigs that fit learn from this action")
+    bpy.types.Action.nook_bake = bpy.props.BoolProperty(name="Bake", default=False, description="Bakes of the rigs that this action fits learn from it")
 
 
 def unregister():

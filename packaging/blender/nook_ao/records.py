@@ -159,7 +159,7 @@ def free_files(folder, name, key):
         owner = vertex_numbers.read_key(files.character)
         if owner == key or not any(os.path.lexists(path) for path in (files.character, files.model)):
             return files
-    raise Fault(f"the folder {folder} has a thousand files of the name {name}; choose another folder")
+    raise Fault(f"the folder {folder} already has a thousand files with the name {name}; choose another folder")
 
 
 def setting(armature, scene, name):

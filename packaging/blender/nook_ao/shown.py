@@ -23,13 +23,13 @@ class Shown:
         self.character = nook.Character(data=data)
         self.model = nook.CharacterModel(files.model.read_bytes())
         if self.model.vertex_count != self.character.vertex_count:
-            raise Fault(f"the file {files.model} has {self.model.vertex_count} vertices and {files.character} {self.character.vertex_count}; bake again")
+            raise Fault(f"the file {files.model} has {self.model.vertex_count} vertices, but {files.character} has {self.character.vertex_count}; bake again")
         self.numbers = vertex_numbers.read_vertex_numbers(data)
         self.counts = [p.vertices for p in record.parts]
         self.count = sum(self.counts)
         counts = vertex_counts(self.items)
         if self.counts != counts or len(self.numbers) != self.model.vertex_count or self.numbers.max() >= self.count:
-            raise Fault(f"the meshes have {counts} vertices, and the bake is of {self.counts}; bake again after a change of the meshes")
+            raise Fault(f"the meshes have {counts} vertices, but the bake was made for {self.counts}; bake again after you change the meshes")
         rest, _ = self.character.vertices()
         parts = [character.Part(item, record.rig) for item in self.items]
         self.rest = poses.find_rest_matrix(*self._bind_places(record.rig, parts, rest.astype(np.float64)))
@@ -110,10 +110,10 @@ class Shown:
         """Returns why this character can no longer be shown, or None if it can."""
         record = self.record
         if record is None or record.rig is None or any(p.item is None for p in record.parts):
-            return "its armature or a mesh of it is gone"
+            return "its armature or one of its meshes no longer exists"
         counts = vertex_counts(self.items)
         if counts != self.counts and not any(o.data.is_editmode for o in self.items):
-            return f"its meshes have {counts} vertices, and the bake is of {self.counts}; bake again"
+            return f"its meshes have {counts} vertices, but the bake was made for {self.counts}; bake again"
         return None
 
 
@@ -169,7 +169,7 @@ def record_of_old_bake(context, armature):
     except (TypeError, ValueError):  # a property of a file can have any content
         counts = []
     if counts != vertex_counts(items):
-        raise Fault(f"the meshes have {vertex_counts(items)} vertices, and the bake is of {counts}; bake again after a change of the meshes")
+        raise Fault(f"the meshes have {vertex_counts(items)} vertices, but the bake was made for {counts}; bake again after you change the meshes")
     record = records.make(context.scene, armature)
     records.keep_files(record, records.files_of(armature))
     records.set_parts(record, items)
@@ -196,9 +196,9 @@ def show(context, armature):
     if record is None or not record.folder:
         record = record_of_old_bake(context, armature)
     elif vertex_numbers.read_key(files.character) not in (record.key, None):
-        raise Fault(f"the file {files.character} is of another character; bake this one again")
+        raise Fault(f"the file {files.character} belongs to another character; bake this character again")
     if any(p.item is None for p in record.parts):
-        raise Fault(f"a mesh of the bake of {armature.name} is gone; bake again")
+        raise Fault(f"a mesh that the bake of {armature.name} contains no longer exists; bake again")
     try:
         entry = Shown(record, files, nook)
     except (nook.NookError, OSError) as error:

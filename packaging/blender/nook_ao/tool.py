@@ -77,4 +77,4 @@ class Run:
         """Raises an error with the command's message if the command failed."""
         code = self._process.returncode
         if code != 0:
-            raise Fault(f"nook failed with exit code {code}: {self.errors or self.last_line or 'it said nothing'}")
+            raise Fault(f"nook failed with exit code {code}: {self.errors or self.last_line or 'it printed no message'}")

@@ -26,7 +26,7 @@ def read_glb(data):
     """Returns the JSON and the binary chunk of a .glb file."""
     chunks, at = {}, 12
     if len(data) < 12 or struct.unpack_from("<I", data)[0] != GLB_MAGIC:
-        raise Fault("the exported file is no .glb")
+        raise Fault("the exported file is not a .glb file")
     while at + 8 <= len(data):
         length, kind = struct.unpack_from("<II", data, at)
         chunks[kind] = data[at + 8:at + 8 + length]
@@ -58,7 +58,7 @@ def read_vertex_numbers(data):
             # Exporters put one or two underscores before the names of custom attributes.
             found = [a for name, a in primitive["attributes"].items() if name.strip("_").upper() == NAME]
             if not found:
-                raise Fault(f"the exported file has no attribute {NAME}; this exporter of glTF writes no attributes, use that of Blender 3.4 or newer")
+                raise Fault(f"the exported file has no attribute {NAME}; this glTF exporter does not write attributes, so use the exporter of Blender 3.4 or newer")
             numbers.append(np.rint(read_scalars(document, binary, found[0])).astype(np.int64))
     if not numbers:
         raise Fault("the exported file has no triangles")

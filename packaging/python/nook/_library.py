@@ -77,7 +77,7 @@ class _Library:
                     continue
                 break
             else:
-                raise MissingLibrary("UNSUPPORTED", f"nook: the loaded library has no {name}; install libnook_bake as well, of the same version")
+                raise MissingLibrary("UNSUPPORTED", f"nook: the loaded library has no {name}; also install libnook_bake of the same version")
             found.restype, found.argtypes = c.FUNCTIONS[name]
             self._found[name] = found
         return found
@@ -158,7 +158,7 @@ def put_settings(structure: Any, settings: Dict[str, Any], names: Iterable[str],
     allowed = sorted(names)
     for name, value in settings.items():
         if name not in allowed:
-            raise TypeError(f"{name!r} is no setting of {of}; there are {', '.join(allowed)}")
+            raise TypeError(f"{name!r} is not a setting of {of}; the settings are {', '.join(allowed)}")
         if name == "form" and isinstance(value, str):
             value = choice("NOOK_FORM_", value, name)
         put(structure, **{name: value})
@@ -409,7 +409,7 @@ def choice(beginning: str, name: str, what: str) -> int:
     if not isinstance(name, str):
         raise TypeError(f"{what}: need one of the words {', '.join(sorted(words))}, got {came(name)}")
     if name not in words:
-        raise ValueError(f"{what}: {name!r} is none of {', '.join(sorted(words))}")
+        raise ValueError(f"{what}: {name!r} is not one of {', '.join(sorted(words))}")
     return int(words[name])
 
 

@@ -52,7 +52,7 @@ class Character(Handle):
         parents = integers(bone_parents, np.int32, (None,), "bone_parents")
         found = None if bone_names is None else names(bone_names, "bone_names")
         if found is not None and len(found) != len(parents):
-            raise ValueError(f"bone_names: has {len(found)}, need {len(parents)}")
+            raise ValueError(f"bone_names: has {len(found)} names, need {len(parents)}, one for each bone")
         arrays = {"positions": p, "triangles": integers(triangles, np.uint32, (None, 3), "triangles"), "joints": bones,
                   "weights": floats(weights, bones.shape, "weights"), "bone_parents": parents,
                   "bone_frames": floats(bone_frames, (len(parents), 3, 4), "bone_frames"), "bone_names": found}
@@ -109,14 +109,14 @@ class Character(Handle):
         said = ", ".join(repr(name) for name in self.clip_names)
         if isinstance(clip, str):
             if clip not in self.clip_names:
-                raise ValueError(f"clip {clip!r} is none of {said}")
+                raise ValueError(f"clip {clip!r} is not one of {said}")
             return self.clip_names.index(clip)
         try:
             index = operator.index(clip)
         except TypeError:
             raise TypeError(f"clip: need a name or a number, got {came(clip)}; there are {said}") from None
         if not 0 <= index < len(self.clip_names):
-            raise ValueError(f"clip {index} is none of 0 to {len(self.clip_names) - 1}: {said}")
+            raise ValueError(f"clip {index} is not in 0 to {len(self.clip_names) - 1}: {said}")
         return index
 
     def clip_duration(self, clip: Union[int, str]) -> float:

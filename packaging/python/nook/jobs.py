@@ -61,7 +61,7 @@ class Job(Handle):
     @property
     def handle(self) -> Any:
         if self._process != os.getpid():
-            raise NookError("INVALID_HANDLE", "Job: it belongs to the process that started it; wait for it there, and pass on its bytes")
+            raise NookError("INVALID_HANDLE", "Job: it belongs to the process that started it; wait for the job there, and pass its bytes to other processes")
         return super().handle
 
     def close(self) -> None:

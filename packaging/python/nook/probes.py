@@ -93,7 +93,7 @@ class ProbeFit(Handle):
         elif method in _METHODS:
             desc.method = choice("NOOK_PROBE_FIT_", method, "method")
         else:
-            raise ValueError(f"method: {method!r} is none of {', '.join(_METHODS + _STUDIES)}")
+            raise ValueError(f"method: {method!r} is not one of {', '.join(_METHODS + _STUDIES)}")
         desc.next = ctypes.addressof(study)
         call("nook_probe_fit_create", shared_context().handle, ctypes.byref(desc), ctypes.byref(self._handle))
 

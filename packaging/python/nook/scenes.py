@@ -128,7 +128,7 @@ class CharacterModel(Handle):
         j = None if joints is None else integers(joints, np.uint16, (len(p), None), "joints")
         w = None if weights is None else floats(weights, (len(p), None), "weights")
         if j is not None and w is not None and j.shape != w.shape:
-            raise ValueError(f"joints and weights differ in their shapes (got {j.shape} and {w.shape})")
+            raise ValueError(f"joints and weights have different shapes (got {j.shape} and {w.shape})")
         put(desc, positions=pointer(p), normals=pointer(n), vertex_count=len(p), in_rest_space=bool(in_rest_space), tolerance=tolerance,
             joints=pointer(j), weights=pointer(w), skin=skin, primitive=c.NOOK_ALL_PRIMITIVES if primitive is None else primitive)
         if j is not None:
@@ -192,7 +192,7 @@ def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] 
     and the pose for C is the first one."""
     what = "poses" if many else "pose"
     if not isinstance(kind, str) or kind not in _KINDS:
-        raise ValueError(f"kind: {kind!r} is none of {', '.join(_KINDS)}")
+        raise ValueError(f"kind: {kind!r} is not one of {', '.join(_KINDS)}")
     if layout is None:
         pose = numbers(pose, what)
         layout = "rows_4x4" if pose.shape[1 + many:] == (4, 4) else "rows_3x4"
@@ -202,7 +202,7 @@ def _pose(model: CharacterModel, pose: Any, kind: str, *, layout: Optional[str] 
     if kind == "skinning":
         joints = {each.file_index: each.joint_count for each in model.skins}
         if joints and skin not in joints:
-            raise ValueError(f"skin: {skin} is none of {', '.join(str(each) for each in joints)}")
+            raise ValueError(f"skin: {skin} is not one of {', '.join(str(each) for each in joints)}")
         count = joints.get(skin)
     bones = None
     if transform_of_bone is not None:

@@ -56,7 +56,7 @@ def model_error(character: Character, model: CharacterModel, poses: Any, *, rays
     need(character, Character, "character")
     need(model, CharacterModel, "model")
     if character.vertex_count != model.vertex_count:
-        raise ValueError(f"model: has {model.vertex_count} vertices, and the character has {character.vertex_count}")
+        raise ValueError(f"model: has {model.vertex_count} vertices, but the character has {character.vertex_count}")
     each = floats(poses, (None, character.bone_count, 3, 4), "poses")
     triangles, static = character.triangles(), model.static_ao()
     offset = 1e-4 * float(np.linalg.norm(character.bounds[1] - character.bounds[0]))

@@ -11,7 +11,7 @@ import { Surface } from "./surface.js";
 export class Gl extends OnSurface {
   static make(library, context, webgl, options = {}) {
     if (!webgl || typeof webgl.createTransformFeedback !== "function")
-      throw new NookError("Context.createGl: webgl is no WebGL2RenderingContext; call canvas.getContext(\"webgl2\")",
+      throw new NookError("Context.createGl: webgl is not a WebGL2RenderingContext; call canvas.getContext(\"webgl2\")",
         "NOOK_ERROR_UNSUPPORTED");
     if (webgl.isContextLost?.())
       throw new NookError("Context.createGl: the WebGL context is lost; call it after \"webglcontextrestored\"", "NOOK_ERROR_GL");

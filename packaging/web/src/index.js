@@ -48,8 +48,8 @@ async function instantiate(wasm, imports) {
     const from = isPlace ? ` from ${wasm ?? new URL("./nook.wasm", import.meta.url)}` : "";
     const cure = /unsafe-eval|Content Security Policy/i.test(error.message)
       ? "the page's content security policy must allow 'wasm-unsafe-eval' in script-src"
-      : "nook.wasm of the package must lie beside its index.js, or give load({ wasm })";
-    throw new Error(`nook-web: the module of WebAssembly cannot be loaded${from} (${error.message}); ${cure}`, { cause: error });
+      : "put nook.wasm of the package beside its index.js, or pass its address to load({ wasm })";
+    throw new Error(`nook-web: the WebAssembly module cannot be loaded${from} (${error.message}); ${cure}`, { cause: error });
   }
 }
 

@@ -44,7 +44,7 @@ export class Surface {
   alive(name) {
     if (!this.isLost) return;
     throw new NookError(`${name}: the WebGL context was lost; draw nothing until "webglcontextrestored", then destroy the Gl and ` +
-      "everything that it made, and make them anew with createGl", "NOOK_ERROR_GL");
+      "everything that it made, and make all of them again, beginning with createGl", "NOOK_ERROR_GL");
   }
 
   // The context is lost, and has no objects any more.
