@@ -17,7 +17,7 @@ class NookAo {
       : file_(file), model_(context_, model.data(), model.size()), character_(scene_.add_instance(model_)) {
     if (model_.info().file_vertex_count != file.vertices.size())
       throw std::runtime_error(
-          "the model is of other meshes; bake one from this file, with the same --without");
+          "the model was baked from other meshes; bake a model from this file, with the same --without");
     std::vector<const char*> names;
     for (const Node& node : file.nodes) names.push_back(node.name.c_str());
     node_of_bone_ = model_.map_bones(names);

@@ -45,7 +45,7 @@ std::vector<float> read(const tinygltf::Model& model, int index, std::size_t wid
   if (accessor.sparse.isSparse || accessor.bufferView < 0)
     throw std::runtime_error("it has sparse accessors; export it without them");
   if (std::size_t(tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type))) != width)
-    throw std::runtime_error("accessor " + std::to_string(index) + " has another number of components");
+    throw std::runtime_error("accessor " + std::to_string(index) + " has the wrong number of components");
   const tinygltf::BufferView& view = model.bufferViews.at(std::size_t(accessor.bufferView));
   const std::vector<unsigned char>& bytes = model.buffers.at(std::size_t(view.buffer)).data;
   const std::size_t stride = std::size_t(accessor.ByteStride(view));
@@ -179,7 +179,7 @@ void read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
   const int skin = shown.skin;
   const glm::mat3 turn = glm::transpose(glm::inverse(glm::mat3(shown.instance)));
   if (primitive.mode != TINYGLTF_MODE_TRIANGLES)
-    throw std::runtime_error("it has strips or fans; export lists");
+    throw std::runtime_error("it has triangle strips or fans; export triangle lists");
   const std::size_t first = out.vertices.size(), first_index = out.triangles.size();
   const std::vector<float> positions = read(model, attribute(primitive, "POSITION"), 3);
   const int normals_at = attribute(primitive, "NORMAL");
@@ -212,7 +212,7 @@ void read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& pri
       for (std::size_t k = 0; k < 4; ++k) {
         const std::size_t joint = vertex.weights[int(k)] > 0 ? std::size_t(joints.at(4 * v + k)) : 0;
         if (joint >= out.skins.at(std::size_t(skin)).joints.size())
-          throw std::runtime_error("a vertex names a joint that its skin lacks");
+          throw std::runtime_error("a vertex refers to a joint that does not exist in its skin");
         vertex.matrices[k] = std::uint16_t(out.skins[std::size_t(skin)].first_matrix + joint);
       }
     }

@@ -211,7 +211,7 @@ struct DepthMaterial : Ogre::RenderTargetListener {
 
 void draw(const hosts::Options& o) {
   const hosts::Scene scene(o);
-  if (scene.file.skins.size() != 1) throw std::runtime_error("this host takes files of one skin");
+  if (scene.file.skins.size() != 1) throw std::runtime_error("this host needs a file with exactly one skin");
   Ogre::LogManager log;
   log.createLog("", true, false, true);
   Ogre::Root root("", "", "");

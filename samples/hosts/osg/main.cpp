@@ -131,7 +131,7 @@ osg::ref_ptr<osg::Program> make_program(const std::string& fragment, std::size_t
 
 void draw(const hosts::Options& o) {
   const hosts::Scene scene(o);
-  if (scene.file.skins.size() != 1) throw std::runtime_error("this host takes files of one skin");
+  if (scene.file.skins.size() != 1) throw std::runtime_error("this host needs a file with exactly one skin");
   const std::size_t joints = scene.file.skins[0].joints.size();
   std::vector<osg::Matrixf> pose;
   osg::ref_ptr<osg::Uniform> matrices = new osg::Uniform(osg::Uniform::FLOAT_MAT4, "matrices", int(joints));

@@ -81,7 +81,7 @@ export class NookThree {
   add(model, ...meshes) {
     if (!meshes.length || meshes.some((mesh) => !mesh?.geometry?.attributes?.position))
       throw new Error("NookThree.add: give the model, then the skinned meshes of one character");
-    if (meshes.some((mesh) => mesh.geometry.attributes.nookAo)) throw new Error("NookThree.add: a mesh has been added before; remove its character first");
+    if (meshes.some((mesh) => mesh.geometry.attributes.nookAo)) throw new Error("NookThree.add: a mesh has already been added; remove its character first");
     const taken = new Set(), matches = meshes.map((mesh) => matchMesh(model, mesh, taken));
     const vertices = matches.flatMap((match) => [...match.vertices]), unmatched = matches.reduce((sum, match) => sum + match.unmatched, 0);
     for (const { ambiguous, text } of matches) if (ambiguous) console.warn(`NookThree.add: ${text}`);
@@ -175,18 +175,18 @@ export class NookPass extends Pass {
   #webglOf(renderer, of, what) {
     if (!of?.isTexture) throw new Error(`NookPass: ${what} needs a THREE.Texture (got ${of?.constructor?.name ?? of})`);
     const { __webglTexture: texture } = renderer.properties.get(of);
-    if (!texture) throw new Error(`NookPass: three.js has not drawn to ${what} yet; the pass stands after the RenderPass`);
+    if (!texture) throw new Error(`NookPass: three.js has not drawn to ${what} yet; add the pass after the RenderPass`);
     return texture;
   }
   render(renderer, _, { width, height, texture, depthTexture }) {
     if (!this.host.isAlive) return;
     const { gl } = this.host, { camera, options } = this;
-    if (!depthTexture) throw new Error("NookPass: the composer's render target has no depthTexture; give EffectComposer one that has");
+    if (!depthTexture) throw new Error("NookPass: the composer's render target has no depthTexture; give EffectComposer a render target with a depthTexture");
     // Textures of the host may be three.js's own, such as a normalTexture.
     const frame = { ...this.frame };
     for (const [name, value] of Object.entries(frame)) if (value?.isTexture) frame[name] = this.#webglOf(renderer, value, name);
     if (renderer.capabilities.logarithmicDepthBuffer && frame.depthKind === undefined)
-      throw new Error("NookPass: the renderer's depth is logarithmic; leave logarithmicDepthBuffer out, or give depthKind and the members of nook_nnao.h beside it");
+      throw new Error("NookPass: the renderer's depth is logarithmic; leave logarithmicDepthBuffer out, or set depthKind and the members that nook_nnao.h describes with it");
     const depth = this.#webglOf(renderer, depthTexture, "the depthTexture"), colour = this.#webglOf(renderer, texture, "the colour");
     if (this.gl !== gl || this.width !== width || this.height !== height || this.made !== options) {
       this.nnao?.destroy();

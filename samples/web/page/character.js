@@ -17,7 +17,7 @@ export async function fetchBytes(url, progress = () => {}) {
       progress(received += part.value.length, all);
     }
   } catch (error) {
-    throw new Error(`${url} broke off after ${received} bytes (${error.message}); load the page again`);
+    throw new Error(`${url} stopped after ${received} bytes (${error.message}); load the page again`);
   }
   const bytes = new Uint8Array(received);
   let at = 0;
@@ -32,7 +32,7 @@ function arraysOf(places, bytes, url) {
     const end = offset + length * types[type].BYTES_PER_ELEMENT;
     if (end > bytes.byteLength)
       throw new Error(`${url} is incomplete (it has ${bytes.byteLength} bytes, and its array ${name} ends at ${end}); ` +
-        "load the page again, or make the file anew by samples/web/build.sh");
+        "load the page again, or make the file again with samples/web/build.sh");
     arrays[name] = new types[type](bytes, offset, length);
   }
   return arrays;
@@ -50,7 +50,7 @@ export async function fetchCharacter(folder, progress = () => {}) {
   } catch {}
   const lacks = Object.keys(needed).flatMap((part) => needed[part].filter((name) => !types[description?.[part]?.[name]?.type]))[0];
   if (lacks || !Array.isArray(description.clips))
-    throw new Error(`${folder}/character.json is damaged or another file (it describes no array ${lacks ?? "of clips"}); samples/web/build.sh makes it`);
+    throw new Error(`${folder}/character.json is damaged or is another file (it does not describe the array ${lacks ?? "of clips"}); samples/web/build.sh makes it`);
   return { ...description, arrays: arraysOf(description.arrays, bytes, `${folder}/character.bin`), nook, isComplete: false };
 }
 

@@ -292,7 +292,7 @@ async function loadNook(log) {
 
 async function start() {
   const webgl = canvas.getContext("webgl2", { antialias: true, alpha: false, preserveDrawingBuffer: query.has("check") });
-  if (!webgl) throw new Error("This browser gives no WebGL 2; switch hardware acceleration on, or take another browser.");
+  if (!webgl) throw new Error("This browser does not provide WebGL 2; switch on hardware acceleration, or use another browser.");
   let page = null;
   watchContext(() => page);
   const files = new Map();
@@ -330,7 +330,7 @@ function named(url, call) {
   try {
     return call();
   } catch (error) {
-    throw new Error(`${url}: ${error.message}; load the page again, or make the file anew by samples/web/build.sh`, { cause: error });
+    throw new Error(`${url}: ${error.message}; load the page again, or make the file again with samples/web/build.sh`, { cause: error });
   }
 }
 
