@@ -135,8 +135,8 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
   // there as a size.
   if (value_size(file, type, size) != size)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%.250s is a damaged EXR file: its attribute \"%.60s\" has %u bytes, which is not the size "
-                  "of the type \"%.60s\"",
+                  "%.250s is a damaged EXR file: its attribute \"%.60s\" has %u bytes, "
+                  "which is not the size of the type \"%.60s\"",
                   what, name.c_str(), size, type.c_str());
   file.clear();
   file.seekg(std::streamoff(at + size));

@@ -155,8 +155,8 @@ PbrFiles arrange_pbr_names(std::span<const std::string> names) {
   }
   if (!places.base_colour)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "no image has the name of a base colour (got %s; need a name that contains albedo, base "
-                  "color, color or diffuse)",
+                  "no image has the name of a base colour (got %s; need a name that "
+                  "contains albedo, base color, color or diffuse)",
                   names.empty() ? "no image" : list_of(names).c_str());
   PbrFiles files;
   files.base_colour = *places.base_colour;

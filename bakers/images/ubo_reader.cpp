@@ -266,8 +266,8 @@ class UboImage {
       // Raw materials store half floats.
       if (!(std::abs(value) <= max_half))
         throw Failure(NOOK_ERROR_BAD_FILE,
-                      "%.250s: texel (%d, %d), counted from the upper left, is not finite or exceeds 65504 "
-                      "in magnitude",
+                      "%.250s: texel (%d, %d), counted from the upper left, is "
+                      "not finite or exceeds 65504 in magnitude",
                       path_.c_str(), x, y);
     return colour;
   }
@@ -317,8 +317,8 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
   const std::size_t values = raw.light_rows() * raw.views.size() * raw.texels();
   if (values > most_bytes / sizeof(float))
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%zu images of %u x %u texels take %.1f GiB as floats, which is too much; choose a smaller "
-                  "square (--texels)",
+                  "%zu images of %u x %u texels take %.1f GiB as floats, which is "
+                  "too much; choose a smaller square (--texels)",
                   names.size(), raw.width, raw.height, double(values) * sizeof(float) / double(1 << 30));
   raw.btf.resize(values);
 

@@ -118,8 +118,8 @@ Strided checked_view(const tinygltf::Model& model, int view_index, std::size_t o
   const std::size_t stride = may_stride && view.byteStride != 0 ? view.byteStride : element_size;
   if (view.byteOffset > data.size() || view.byteLength > data.size() - view.byteOffset)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s: its buffer view starts at byte %zu and has %zu bytes, but its buffer has only %zu; "
-                  "the file may be truncated",
+                  "%s: its buffer view starts at byte %zu and has %zu bytes, but its "
+                  "buffer has only %zu; the file may be truncated",
                   what.c_str(), view.byteOffset, view.byteLength, data.size());
   const bool fits = count == 0 || (offset <= view.byteLength && element_size <= view.byteLength - offset &&
                                    (count - 1) <= (view.byteLength - offset - element_size) / stride);
@@ -174,8 +174,8 @@ void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int
   if (sparse.count < 0 || static_cast<std::size_t>(sparse.count) > accessor.count ||
       sparse.indices.byteOffset < 0 || sparse.values.byteOffset < 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s: the sparse count %d is out of range for an accessor of %zu elements, or a sparse "
-                  "offset is negative",
+                  "%s: the sparse count %d is out of range for an accessor of "
+                  "%zu elements, or a sparse offset is negative",
                   what.c_str(), sparse.count, accessor.count);
   const std::size_t index_size = component_size(sparse.indices.componentType);
   if (!is_index_type(sparse.indices.componentType))

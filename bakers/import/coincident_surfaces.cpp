@@ -492,8 +492,8 @@ std::string sentence_of(const tinygltf::Model& model, const OutlineHull& hull) {
   around = hull.inner_node == hull.node ? "primitive " + std::to_string(hull.inner_primitive)
                                         : "node \"" + node_label(model, hull.inner_node) + "\"";
   return what + " lies close around " + percent + " of " + around +
-         " with its faces turned inwards, like the hull of a toon outline, and darkens all that lies "
-         "inside; " +
+         " with its faces turned inwards, like the hull of a toon "
+         "outline, and darkens all that lies inside; " +
          cure;
 }
 

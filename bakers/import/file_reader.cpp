@@ -397,8 +397,8 @@ bool LinkedFileReader::may_open(const std::string& path) {
   if (!std::filesystem::exists(status)) return refuse(name, "which does not exist");
   if (linked_ == LinkedFiles::folder && leaves_folder(name))
     return refuse(name,
-                  "a link that leads outside of its own folder; copy the file there, or allow files outside "
-                  "(--allow-outside-files)");
+                  "a link that leads outside of its own folder; copy the file there, "
+                  "or allow files outside (--allow-outside-files)");
   if (!std::filesystem::is_regular_file(status)) return refuse(name, "which is not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error || size > left_) return refuse(name, "and its linked files have more than 2 GiB in all");

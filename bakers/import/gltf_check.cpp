@@ -224,8 +224,8 @@ void look_at_primitives(const tinygltf::Model& model, std::vector<std::string>& 
   });
   warn(warnings, unread_types, "attributes have a type that glTF does not allow for them");
   warn(warnings, restarts,
-       "index lists contain the value that restarts primitives, which glTF forbids; it was read as the index "
-       "of a vertex");
+       "index lists contain the value that restarts primitives, which glTF "
+       "forbids; it was read as the index of a vertex");
   warn(warnings, bounds,
        "accessors of positions have a min and max that do not match their values; min and max were not used");
 }

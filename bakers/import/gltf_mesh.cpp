@@ -43,8 +43,8 @@ void add_morph_targets(const tinygltf::Model& model, const tinygltf::Primitive& 
       std::size_t(std::count_if(weights.begin(), weights.end(), [](double weight) { return weight != 0; }));
   if (at_work > max_targets_at_work)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s has %zu morph targets with default weights other than 0 (need at most %zu); apply the "
-                  "targets to the mesh",
+                  "%s has %zu morph targets with default weights other than 0 (need "
+                  "at most %zu); apply the targets to the mesh",
                   what.c_str(), at_work, max_targets_at_work);
   for (std::size_t t = 0; t < weights.size(); ++t) {
     if (weights[t] == 0) continue;

@@ -30,8 +30,8 @@ void need_sizes(const RawMaterial& raw, const ClusteredTensor& t, const char* wh
 void need_texels(const RawMaterial& raw, std::uint32_t width, std::uint32_t height, const char* what) {
   if (width != raw.width || height != raw.height)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the %s has %u x %u texels, but the raw material has %u x %u; give the raw file that the "
-                  "material was baked from",
+                  "the %s has %u x %u texels, but the raw material has %u x %u; give "
+                  "the raw file that the material was baked from",
                   what, width, height, raw.width, raw.height);
 }
 

@@ -60,8 +60,8 @@ bool read_signature(Rest& rest, std::span<const std::byte> bytes) {
                               std::min(bytes.size(), signature.size() + 1));
   if (text.substr(0, signature.size()) != signature)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the file does not begin with %.9s; need a BTF of UBO2014, compressed by decorrelated full "
-                  "matrix factorisation",
+                  "the file does not begin with %.9s; need a BTF of UBO2014, compressed "
+                  "by decorrelated full matrix factorisation",
                   signature.data());
   const bool rotated = text.size() > signature.size() && text.back() == 'R';
   rest.take(signature.size() + rotated, "signature");

@@ -19,8 +19,8 @@ void check_file_limits(const CompressionSettings& s, const RawMaterial& raw) {
   const std::uint64_t row = rank * (s.method == Method::k_cta ? s.mixture : 1);
   if (row > nook::material::max_row)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "each view has %llu coefficients (its clusters times their view rank), but the file format "
-                  "allows only %u",
+                  "each view has %llu coefficients (its clusters times their view "
+                  "rank), but the file format allows only %u",
                   static_cast<unsigned long long>(row), nook::material::max_row);
   const auto round_up_to_4 = [](std::uint64_t n) { return (n + 3) / 4 * 4; };
   const std::uint64_t expanded = (clustered ? s.cluster_count() : 1) * round_up_to_4(s.rank_light) *

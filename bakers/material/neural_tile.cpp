@@ -96,8 +96,8 @@ void round_to_blocks(const NeuralShape& s, std::uint32_t channels, std::span<con
 nook::material::Neural encoded(const NeuralTile& tile) {
   if (tile.shape.view_side != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "a file cannot store a neural material whose features depend on the view (got a grid of %u "
-                  "x %u views)",
+                  "a file cannot store a neural material whose features depend "
+                  "on the view (got a grid of %u x %u views)",
                   tile.shape.view_side, tile.shape.view_side);
   nook::material::Neural neural;
   neural.shape = tile.shape;

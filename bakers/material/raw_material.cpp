@@ -69,8 +69,8 @@ std::vector<Vec3> read_directions(ByteReader& reader, std::uint32_t count) {
 void need_size(const ByteReader& reader, std::size_t size) {
   if (reader.remaining() != size)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "section %s does not have the size that the header gives (got %zu bytes, need %zu); bake "
-                  "the file again",
+                  "section %s does not have the size that the header gives (got "
+                  "%zu bytes, need %zu); bake the file again",
                   reader.name(), reader.remaining(), size);
 }
 
@@ -148,8 +148,8 @@ RawMaterial read_raw_material(std::span<const std::byte> bytes) {
   if (lights == 0 || views == 0 || lights > most_directions || views > most_directions || raw.texels() == 0 ||
       raw.width > most_texels_a_side || raw.height > most_texels_a_side)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the material has %u lights, %u views and %u x %u texels, but needs 1 or more of each; "
-                  "bake the file again",
+                  "the material has %u lights, %u views and %u x %u texels, but "
+                  "needs 1 or more of each; bake the file again",
                   lights, views, raw.width, raw.height);
   raw.lights = read_directions(directions, lights);
   raw.views = read_directions(directions, views);

@@ -183,8 +183,8 @@ void check_heights(const RawMaterial& raw) {
   using nook::material::max_relief_height;
   if (raw.heights.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the heights of the material are not known; give an image of the heights, or have the "
-                  "heights estimated");
+                  "the heights of the material are not known; give an image of "
+                  "the heights, or have the heights estimated");
   if (raw.heights.size() != raw.texels())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the relief has %zu heights, need %zu, one for each texel",
                   raw.heights.size(), raw.texels());

@@ -106,8 +106,8 @@ void check_clustered(const Dimensions& dimensions, const ClusteredSettings& s) {
   const std::size_t sub_tensors = dimensions[s.mode];
   if (s.clusters < 1 || s.clusters > sub_tensors)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the number of clusters is out of range (got %zu, need 1 to %zu, the number of sub-tensors "
-                  "of mode %zu)",
+                  "the number of clusters is out of range (got %zu, need 1 to "
+                  "%zu, the number of sub-tensors of mode %zu)",
                   s.clusters, sub_tensors, s.mode + 1);
   if (s.mixture < 1 || s.mixture > s.clusters)
     throw Failure(

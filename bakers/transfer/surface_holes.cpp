@@ -92,8 +92,8 @@ float HoleTable::cover_at(float u, float v, float level, Vec3 view) const {
 HoleTable make_hole_table(const MaterialTables& tables) {
   if (tables.visibility == nook::material::VisibilityForm::none)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the material has no VOTF and therefore no holes; bake the material with a VOTF, or leave "
-                  "the material out");
+                  "the material has no VOTF and therefore no holes; bake the "
+                  "material with a VOTF, or leave the material out");
   HoleTable table;
   table.votf_hash = tables.votf_hash;
   table.side = view_side;

@@ -34,8 +34,8 @@ void check_movers(const EvaluateNnaoOptions& options) {
   if (!options.temporal || !options.scenes.cameras.empty() || !options.scenes.radii.empty() ||
       !options.references.empty())
     throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: --mover needs --temporal, and cannot be combined with --camera, --radius "
-                    "or --references");
+                    "evaluate nnao: --mover needs --temporal, and cannot be combined "
+                    "with --camera, --radius or --references");
   for (std::size_t i = 0; i < options.movers.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (options.movers[i].stem() == options.movers[j].stem())
@@ -52,13 +52,13 @@ void check_options(const EvaluateNnaoOptions& options) {
                     int(!options.movers.empty());
   if (works != 1)
     throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: nothing to do; give scenes (files, --views or --thin), or --frame, "
-                    "--mover or --tune");
+                    "evaluate nnao: nothing to do; give scenes (files, --views "
+                    "or --thin), or --frame, --mover or --tune");
   if (!options.frames.empty() &&
       (!options.markdown.empty() || !options.scenes.cameras.empty() || !options.scenes.radii.empty()))
     throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: --frame cannot be combined with --markdown, --camera or --radius, which "
-                    "are for scenes");
+                    "evaluate nnao: --frame cannot be combined with --markdown, "
+                    "--camera or --radius, which are for scenes");
   check_movers(options);
   if (options.intensity != 1 && (!has_scenes || options.bent || options.temporal))
     throw ToolError(exit_bad_arguments,
