@@ -21,18 +21,21 @@ OUTSIDE = {"README.md": "readme.md", "ARCHITECTURE.md": "architecture.md", "CONT
 # Pages of docs/lab are not at the side at all: they hold protocols, trials and long tables.
 LAB = "lab/"
 TREE = [("Use it", ["readme", "start", "concepts", "glossary", "install", "conventions", "poses", "performance", "troubleshooting", "messages", "limits"]),
-        ("Guide", ["guide/README", "guide/character", "guide/world", "guide/screen_space", "guide/probes", "guide/materials",
-                   "guide/transfer", "guide/reports", "guide/pipeline", "guide/farms", "guide/artists", "guide/three"]),
-        ("Evidence", ["evidence", "character", "world", "nnao", "nnao_protocol", "nnao_training", "probes", "materials",
+        ("Guide", ["guide/README", "guide/frame", "guide/character", "guide/world", "guide/screen_space", "guide/probes", "guide/materials",
+                   "guide/transfer", "guide/reports", "guide/pipeline", "guide/farms", "guide/artists"]),
+        ("Engines", ["engines/README", "engines/raylib", "engines/sdl", "engines/ogre", "engines/osg", "engines/vtk", "engines/three",
+                     "engines/vulkan"]),
+        ("Evidence", ["evidence", "character", "nnao", "nnao_protocol", "nnao_training", "probes", "materials",
                       "material_decoding", "transfer", "gpu_cost"]),
-        ("Platforms", ["platforms", "opengl_es", "web", "python", "hosts", "gl_state"]),
+        ("Platforms", ["platforms", "opengl_es", "web", "python", "gl_state"]),
         ("Reference", ["api/README"]),
         ("Samples", []),
         ("Project", ["architecture", "contributing", "security", "stability", "history", "patents", "from_rc1"])]
 
 
 # Pages whose own title is too general at the side.
-TITLES = {"readme": "In five minutes <readme>", "guide/README": "Overview <guide/README>", "api/README": "Headers <api/README>",
+TITLES = {"readme": "In five minutes <readme>", "guide/README": "Overview <guide/README>", "engines/README": "Overview <engines/README>",
+          "api/README": "Headers <api/README>",
           "history": "History <history>", "samples/overview": "Overview <samples/overview>"}
 
 

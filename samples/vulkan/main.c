@@ -60,12 +60,14 @@ static VkResult record_pass(Pass* p, const engine* e, const Settings* s) {
   if (nook_gl_frame_desc_init(&frame) || nook_nnao_frame_desc_init(&desc)) return VK_ERROR_UNKNOWN;
   frame.width = e->width;
   frame.height = e->height;
+  /* [frame] */
   frame.clip_space = NOOK_CLIP_SPACE_ZERO_TO_ONE;
   memcpy(frame.projection, e->projection, sizeof frame.projection);
   desc.radius = s->radius_m;
   frame.normal_texture = s->normals ? 1 : 0; /* 0: normals that follow from depth */
   rotation(e->view, frame.normal_matrix);
   return nook_vulkan_record(&p->vulkan, e->commands, &frame, &desc);
+  /* [end] */
 }
 
 /* ---- 3. At the end, when no frame is running ---- */

@@ -1,6 +1,6 @@
-// Follows docs/web.md's examples for bundlers and docs/guide/three.md by their own blocks, each in an empty folder:
+// Follows docs/web.md's examples for bundlers and docs/engines/three.md by their own blocks, each in an empty folder:
 //   node guides_test.mjs PACKAGE.tgz HERO.glb HERO.nook FOLDER_OF_THE_COMMAND_NOOK
-// A block whose line before is "`NAME`:", or begins so, is written to NAME; blocks of sh are run. npm's registry must be in reach.
+// A block whose line before is "`NAME`:", or begins so, is written to NAME; blocks of sh are run; the others explain. npm's registry must be in reach.
 import { spawn, spawnSync } from "node:child_process";
 import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -130,7 +130,7 @@ function start(command, folder) {
 }
 
 async function followThree() {
-  const began = Date.now(), folder = emptyFolder("three"), blocks = blocksOf(readFileSync(join(docs, "guide/three.md"), "utf8"));
+  const began = Date.now(), folder = emptyFolder("three"), blocks = blocksOf(readFileSync(join(docs, "engines/three.md"), "utf8")).filter(({ kind, name }) => kind === "sh" || name);
   copyFileSync(glb, join(folder, "hero.glb"));
   for (const { kind, name, text } of blocks) {
     if (kind !== "sh") writeFileSync(join(folder, name), text);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds the package and the page, installs the package into an empty folder, and tests the page in Chromium without a window. Then it
-# follows docs/guide/three.md and the examples for bundlers in docs/web.md, and tests samples/hosts/three, which takes npm's registry.
+# follows docs/engines/three.md and the examples for bundlers in docs/web.md, and tests samples/hosts/three, which takes npm's registry.
 #   samples/web/test.sh [--quick] [FOLDER]     --quick: 5 s of frames in place of 60; FOLDER as for build.sh
 # Pictures and results.json go to FOLDER/test. The exit status is 0 if every check holds.
 set -euo pipefail

@@ -3,7 +3,8 @@
 
   snippets_test.py C_COMPILER CXX_COMPILER
 
-The blocks of C and C++ of a page follow one another in one function, and each block of GLSL has a scope of its own. What an engine would have, such as a texture or
+Blocks that docs/include_snippets.py copies from samples are left out: their programs compile them. The blocks of C and C++ of a page
+follow one another in one function, and each block of GLSL has a scope of its own. What an engine would have, such as a texture or
 a pose, is declared in tests/docs/snippets: engine.h for all pages of C and C++, and a file for each page with GLSL. In
 GLSL, lines that begin with a qualifier (in, out, uniform) stand before the function. Blocks are compiled, not run:
 tests/docs/printed_test.py runs the programs that README.md shows.
@@ -22,7 +23,8 @@ PAGES = sorted(p for p in (ROOT / "docs").rglob("*.md") if p.parent.name != "api
 
 
 def blocks(page, language):
-    return re.findall(rf"^```{language}\n(.*?)^```$", page.read_text(encoding="utf-8"), re.M | re.S)
+    text = re.sub(r"^<!-- samples/\S+: \w+ -->\n```.*?^```$", "", page.read_text(encoding="utf-8"), flags=re.M | re.S)
+    return re.findall(rf"^```{language}\n(.*?)^```$", text, re.M | re.S)
 
 
 def name_of(page):

@@ -1,4 +1,4 @@
-// nook-web/three: Nook in three.js. docs/guide/three.md is a page to follow.
+// nook-web/three: Nook in three.js. docs/engines/three.md is a page to follow.
 import type { Camera, Object3D, SkinnedMesh, WebGLRenderer } from "three";
 import type { Pass } from "three/addons/postprocessing/Pass.js";
 import type { CharacterModel, Context, Gl, Instance, NnaoFrame, NnaoOptions, Pose, Scene } from "./index.js";

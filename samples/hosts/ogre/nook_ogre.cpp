@@ -42,6 +42,7 @@ void NookOgre::listen(const Ogre::TexturePtr& depth, const Ogre::TexturePtr& res
 }
 
 void NookOgre::set_pose() {
+  /* [pose] */
   std::vector<Ogre::Affine3> bones;
   for (const Ogre::Bone* bone : entity_.getSkeleton()->getBones()) bones.push_back(bone->_getFullTransform());
   nook_pose_desc desc = nook::pose_desc();
@@ -53,15 +54,18 @@ void NookOgre::set_pose() {
   desc.bone_count = std::uint32_t(bone_map_.size());
   desc.place_3x4 = entity_._getParentNodeFullTransform()[0];
   scene_.set_pose(character_, desc);
+  /* [end] */
 }
 
 // OGRE draws only from its own buffers, so Nook writes the AO into one of them.
 void NookOgre::update_on_gpu() {
   set_pose();
   gl_.update(scene_);
+  /* [ao] */
   nook_gl_ao_target target{};
   target.buffer = static_cast<Ogre::GL3PlusHardwareVertexBuffer&>(*ao_).getGLBufferId();
   gl_.write_ao(scene_, {character_}, target);
+  /* [end] */
 }
 
 void NookOgre::update_on_cpu() {
@@ -74,7 +78,9 @@ void NookOgre::update_on_cpu() {
 
 // OGRE draws into textures upside down, and so does the projection here.
 void NookOgre::postRenderTargetUpdate(const Ogre::RenderTargetEvent&) {
+  /* [screen] */
   const Ogre::Matrix4 projection = camera_->getProjectionMatrixWithRSDepth();
   for (int i = 0; i < 16; ++i) frame_.projection[i] = projection[i % 4][i / 4] * (i % 4 == 1 ? -1.0f : 1.0f);
   screen_->render(frame_, frame_settings_);
+  /* [end] */
 }

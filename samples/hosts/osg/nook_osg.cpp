@@ -9,6 +9,7 @@ struct NookOsg::Binder : osg::Drawable::DrawCallback {
 
   void drawImplementation(osg::RenderInfo& info, const osg::Drawable* drawable) const override {
     const auto* const gl = info.getState()->get<osg::GLExtensions>();
+    /* [ao] */
     const nook_gl_view view = nook.gl_->view(nook.scene_, nook.character_);
     info.getState()->unbindVertexBufferObject();  // so that OSG binds its own buffers again
     gl->glBindBuffer(GL_ARRAY_BUFFER, view.buffer);
@@ -18,6 +19,7 @@ struct NookOsg::Binder : osg::Drawable::DrawCallback {
     gl->glBindBuffer(GL_ARRAY_BUFFER, 0);
     drawable->drawImplementation(info);
     gl->glDisableVertexAttribArray(ao_slot);
+    /* [end] */
   }
 };
 
@@ -59,6 +61,7 @@ void NookOsg::listen(osg::Camera* camera, osg::Texture2D* depth, osg::Texture2D*
 }
 
 void NookOsg::set_pose(const std::vector<osg::Matrixf>& matrices, std::uint32_t skin) {
+  /* [pose] */
   nook_pose_desc desc = nook::pose_desc();
   desc.kind = NOOK_POSE_SKINNING;
   desc.layout = NOOK_TRANSFORM_COLUMNS_4X4;
@@ -66,6 +69,7 @@ void NookOsg::set_pose(const std::vector<osg::Matrixf>& matrices, std::uint32_t 
   desc.transform_count = std::uint32_t(matrices.size());
   desc.skin = skin;
   scene_.set_pose(character_, desc);
+  /* [end] */
   if (!ao_) return;
   scene_.update();
   scene_.read_ao(character_, &ao_->front(), std::uint32_t(ao_->size()));
@@ -73,6 +77,7 @@ void NookOsg::set_pose(const std::vector<osg::Matrixf>& matrices, std::uint32_t 
 }
 
 void NookOsg::operator()(osg::RenderInfo& info) const {
+  /* [screen] */
   osg::State& state = *info.getState();
   state.applyTextureAttribute(0, result_);  // makes the texture
   frame_.depth_texture = depth_->getTextureObject(state.getContextID())->id();
@@ -80,4 +85,5 @@ void NookOsg::operator()(osg::RenderInfo& info) const {
   const osg::Matrixf projection(info.getCurrentCamera()->getProjectionMatrix());
   std::copy_n(projection.ptr(), 16, frame_.projection);
   screen_->render(frame_, frame_settings_);
+  /* [end] */
 }

@@ -134,11 +134,13 @@ export class NookThree {
   // The pose of a character as Nook takes it: the matrices that three.js skins with, to the world. three.js makes boneMatrices
   // longer than the bones need, so that they fill a texture.
   pose({ mesh, transforms }) {
+    /* [pose] */
     const place = new Matrix4().multiplyMatrices(mesh.matrixWorld, mesh.bindMatrixInverse), matrix = new Matrix4();
     mesh.skeleton.update();
     for (let i = 0; i < transforms.length; i += 16)
       matrix.fromArray(mesh.skeleton.boneMatrices, i).multiply(mesh.bindMatrix).premultiply(place).toArray(transforms, i);
     return { kind: "skinning", layout: "columns-4x4", transforms };
+    /* [end] */
   }
 
   // Once a frame, when the animations have moved and before the renderer draws.

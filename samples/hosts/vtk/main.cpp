@@ -173,6 +173,7 @@ void draw(const hosts::Options& o) {
     own->SetDelegatePass(steps);
     renderer->SetPass(own);
   } else if (o.path == "gpu") {
+    /* [pass] */
     nook_gl_desc gl = nook::gl_desc();
     gl.get_proc = hosts::gl_proc;
     gl.state_mode = o.state_mode();
@@ -181,6 +182,7 @@ void draw(const hosts::Options& o) {
     nook->SetDelegatePass(steps->GetOpaquePass());
     steps->SetOpaquePass(nook);
     renderer->SetPass(steps);
+    /* [end] */
   } else {
     renderer->SetPass(steps);
   }

@@ -97,6 +97,7 @@ void vtkNookAoPass::Render(const vtkRenderState* state) {
 
 bool vtkNookAoPass::PostReplaceShaderValues(std::string&, std::string&, std::string& fragment,
                                             vtkAbstractMapper*, vtkProp*) {
+  /* [shader] */
   vtkShaderProgram::Substitute(fragment, "vec4(ambientColor + diffuse",
                                "vec4(nook_ambient() * ambientColor + nook_direct() * diffuse");
   vtkShaderProgram::Substitute(
@@ -105,6 +106,7 @@ bool vtkNookAoPass::PostReplaceShaderValues(std::string&, std::string&, std::str
       "float nook_ambient() { return texelFetch(nook_ao, ivec2(gl_FragCoord.xy) - nook_origin, 0).r; }\n"
       "float nook_direct() { return mix(1.0, nook_ambient(), nook_share); }\n"
       "void main()");
+  /* [end] */
   return true;
 }
 
