@@ -1,0 +1,2 @@
+extern nook_world world;
+extern nook_nnao nnao;
