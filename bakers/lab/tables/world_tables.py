@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Bakes characters, runs `nook evaluate world` on them, and prints the tables of docs/world.md and
+"""Bakes characters, runs `nook evaluate world` on them, and prints the tables of docs/guide/world.md and
 docs/lab/world.md.
 
     bakers/lab/tables/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] [--room SCENE.glb=METRES] [--light MAP.hdr] CHARACTER.glb ...
@@ -21,7 +21,7 @@ from markdown_table import show, table
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 SCRIPT = pathlib.Path(__file__).name
-DOCUMENT = ROOT / "docs/world.md"
+DOCUMENT = ROOT / "docs/guide/world.md"
 LAB = ROOT / "docs/lab/world.md"
 BAKE = ["--split", "half", "--auto-poses", "300", "--samples-per-clip", "8", "--steps", "100", "--rays", "4"]
 EVALUATE = ["--max-poses", "44", "--points", "600"]
