@@ -8,7 +8,7 @@ docs/lab/materials.md has the commands that make the pictures.
 import pathlib
 import sys
 
-from with_and_without import DOCS, read, write
+from png_lines import DOCS, read, write
 
 # For each part: left, top, width and height, and the enlargement factor.
 PARTS = (((630, 120, 180, 275), 2), ((693, 203, 60, 50), 6))

@@ -11,7 +11,7 @@ import re
 import sys
 import tempfile
 
-from with_and_without import DOCS, read, write
+from png_lines import DOCS, read, write
 
 GREY = bytes((82, 87, 97))
 SIDES, POSE = (0, 2, 4, 6), 8

@@ -9,7 +9,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[4]
 sys.path.insert(0, str(ROOT / "bakers/lab/tables"))
-from with_and_without import read  # noqa: E402
+from png_lines import read  # noqa: E402
 
 # With Nook, a picture has less than this share of the error that a picture without occlusion has. The scenes have 0.12 and
 # 0.13 of it, and the walk 0.10 with more rays and pixels. The rest is room for other compilers and drivers.

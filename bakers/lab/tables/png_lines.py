@@ -1,21 +1,10 @@
-#!/usr/bin/env python3
-"""Writes docs/with_and_without.png, the picture of README.md, from three panels of docs/comparison.png.
-
-nook-lab-crowd makes the sheet (out/crowd/sheet.png). The sheet has two rows of four panels, with gaps of two
-pixels between them. Without an argument, the script uses the panels without AO, with Nook's AO, and with
-ray-traced AO.
-"""
+"""Reads and writes PNG pictures as lines of RGB pixels with 8 bits per channel, without a library."""
 import pathlib
 import struct
 import sys
 import zlib
 
 DOCS = pathlib.Path(__file__).resolve().parents[3] / "docs"
-# Row and column of each panel in the sheet.
-PANELS = [(0, 0), (1, 1), (1, 2)]
-GAP_PX = 2
-# Height of the text line above each panel. It is cut off, because the README has a caption.
-TITLE_PX = 16
 
 
 def unfilter(kind, line, above, step):
@@ -68,21 +57,3 @@ def write(path, width, lines):
         above = line
     path.write_bytes(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, len(lines), 8, 2, 0, 0, 0))
                      + chunk(b"IDAT", zlib.compress(b"".join(rows), 9)) + chunk(b"IEND", b""))
-
-
-def main():
-    width, lines = read(pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else DOCS / "comparison.png")
-    panel_width, panel_height = (width - 3 * GAP_PX) // 4, (len(lines) - GAP_PX) // 2
-    joined = []
-    for y in range(TITLE_PX, panel_height):
-        row = bytearray()
-        for down, across in PANELS:
-            first = 3 * across * (panel_width + GAP_PX)
-            line = lines[down * (panel_height + GAP_PX) + y]
-            row += (b"\xff" * (3 * GAP_PX) if row else b"") + line[first:first + 3 * panel_width]
-        joined.append(bytes(row))
-    write(DOCS / "with_and_without.png", len(joined[0]) // 3, joined)
-
-
-if __name__ == "__main__":
-    main()
