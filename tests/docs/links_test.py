@@ -15,7 +15,7 @@ LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]*(?:\([^()]*\))?[
 # The page from which all others can be found.
 START = ROOT / "README.md"
 PICTURED = ["docs/concepts.md", "docs/start.md", "docs/guide/character.md", "docs/guide/world.md", "docs/guide/screen_space.md",
-            "docs/probes.md", "docs/guide/materials.md", "docs/transfer.md", "README.md", "ARCHITECTURE.md"]
+            "docs/probes.md", "docs/materials.md", "docs/transfer.md", "README.md", "ARCHITECTURE.md"]
 
 
 def prose(text):
