@@ -21,11 +21,11 @@ OUTSIDE = {"README.md": "readme.md", "ARCHITECTURE.md": "architecture.md", "CONT
 # Pages of docs/lab are not at the side at all: they hold protocols, trials and long tables.
 LAB = "lab/"
 TREE = [("Use it", ["readme", "start", "concepts", "glossary", "install", "conventions", "poses", "performance", "troubleshooting", "messages", "limits"]),
-        ("Guide", ["guide/README", "guide/frame", "guide/character", "guide/world", "guide/screen_space", "probes", "materials",
+        ("Guide", ["guide/README", "guide/frame", "guide/character", "guide/world", "nnao", "probes", "materials",
                    "transfer", "guide/reports", "guide/pipeline", "guide/farms", "guide/artists"]),
         ("Engines", ["engines/README", "engines/raylib", "engines/sdl", "engines/ogre", "engines/osg", "engines/vtk", "engines/three",
                      "engines/vulkan"]),
-        ("Evidence", ["evidence", "character", "nnao", "material_decoding", "synthesis", "gpu_cost", "gpu_time"]),
+        ("Evidence", ["evidence", "character", "material_decoding", "synthesis", "gpu_cost", "gpu_time"]),
         ("Platforms", ["platforms", "opengl_es", "web", "python", "gl_state"]),
         ("Reference", ["api/README"]),
         ("Samples", []),

@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LINK = re.compile(r"(!?)\[((?:[^\[\]]|\[[^\]]*\])*)\]\(([^()\s]*(?:\([^()]*\))?[^()\s]*)\)")
 # The page from which all others can be found.
 START = ROOT / "README.md"
-PICTURED = ["docs/concepts.md", "docs/start.md", "docs/guide/character.md", "docs/guide/world.md", "docs/guide/screen_space.md",
+PICTURED = ["docs/concepts.md", "docs/start.md", "docs/guide/character.md", "docs/guide/world.md", "docs/nnao.md",
             "docs/probes.md", "docs/materials.md", "docs/transfer.md", "README.md", "ARCHITECTURE.md"]
 
 

@@ -1,4 +1,4 @@
-/* The screen and world passes on OpenGL 3.3, as docs/guide/screen_space.md and world.md have them, without a
+/* The screen and world passes on OpenGL 3.3, as docs/nnao.md and docs/guide/world.md have them, without a
  * display. */
 #include <math.h>
 #include <nook/experimental/nook_trace.h>
