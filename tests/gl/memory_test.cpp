@@ -1,7 +1,13 @@
 // An update must not allocate host memory, read back, wait, or query state outside PRESERVE.
 #include <nook/experimental/nook_debug.h>
 #include <cstdio>
+#include <cstring>
 
+#include "platform/file_bytes.h"
+#include "sdk/src/character/instance_light.h"
+#include "sdk/src/character/loaded_model.h"
+#include "sdk/src/character/model_file.h"
+#include "sdk/src/character/scene.h"
 #include "tests/gl/crowd.h"
 #include "tests/gl/test_context.h"
 #include "tests/gl/traced_loader.h"
@@ -18,7 +24,241 @@ bool maps_uploads(int tier) {
   return false;
 }
 
+// The bytes of the arrays in which an update on the CPU computes an instance, and what a light adds to them.
+// A sphere has a place and a radius. A key point has 17 numbers, and two of them encoded twice.
+struct ArrayBytes {
+  long long instance = 0, light = 0;
+};
+
+ArrayBytes array_bytes(const CharacterModel& model) {
+  const auto padded = [](std::size_t count) { return static_cast<long long>((count + 15) / 16 * 16); };
+  const long long key_points = padded(model.key_points.size());
+  long long numbers = 4 * padded(model.spheres.size()) + 21 * key_points;
+  for (const CharacterLevel& level : model.levels) numbers += 4 * padded(level.spheres.size());
+  const SphereGroups groups(model);
+  for (std::uint32_t t = 0; t < group_tiers; ++t) numbers += 6 * padded(groups.tier(t).count());
+  // Three channels of a shadow, of added occlusion, and of three sums.
+  return {4 * numbers, 4 * 15 * key_points};
+}
+
+// Everything that the CPU tells about an instance after an update.
+struct CpuResults {
+  std::vector<float> ao, directional;
+  std::vector<nook_scene_key_point> key_points;
+
+  CpuResults(const Crowd& crowd, nook_model model, std::size_t index) : ao(cpu_ao(crowd, model, index)) {
+    const nook_instance_id id = crowd.ids[index];
+    directional.resize(3 * ao.size());
+    NOOK_OK_OR_FAIL(nook_scene_read(crowd.scene, id, NOOK_CHANNEL_DIRECTIONAL_AO, NOOK_FORMAT_FLOAT,
+                                    directional.data(), static_cast<std::uint32_t>(ao.size()), 0));
+    std::uint32_t count = 0;
+    NOOK_OK_OR_FAIL(nook_scene_read_key_points(crowd.scene, id, nullptr, &count));
+    key_points.resize(count);
+    NOOK_OK_OR_FAIL(nook_scene_read_key_points(crowd.scene, id, key_points.data(), &count));
+  }
+  bool operator==(const CpuResults& other) const {
+    return ao == other.ao && directional == other.directional &&
+           key_points.size() == other.key_points.size() &&
+           std::memcmp(key_points.data(), other.key_points.data(),
+                       key_points.size() * sizeof(nook_scene_key_point)) == 0;
+  }
+};
+
+// A crowd of two models with all levels. Each third instance has a light, the rest have none.
+struct LitCrowd : Crowd {
+  explicit LitCrowd(const Cast& cast) : Crowd(cast.context.handle, cast.models, cast.bone_counts, of(cast)) {
+    for (std::size_t i = 0; i < ids.size(); i += 3) light(i);
+  }
+  void light(std::size_t index) const {
+    const nook_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+    NOOK_OK_OR_FAIL(nook_scene_set_light(scene, ids[index], &lobe, 1));
+  }
+  static CrowdOptions of(const Cast& cast) {
+    CrowdOptions options;
+    options.camera = true;
+    options.lod_error = cast.coarsest_error;
+    return options;
+  }
+};
+
+// The same crowd, once updated on the CPU from the start and once left to shaders before.
+void check_same_results(const LitCrowd& first, const LitCrowd& second, const Cast& cast) {
+  for (std::size_t i = 0; i < first.ids.size(); ++i) {
+    INFO("instance " << i);
+    CHECK(CpuResults(first, cast.model_of(i), i) == CpuResults(second, cast.model_of(i), i));
+  }
+}
+
+long long bytes_of(const Crowd& crowd) {
+  return static_cast<long long>(stats_of(crowd).memory_bytes);
+}
+
 }  // namespace
+
+TEST_CASE("a scene that only shaders update has no arrays for the CPU") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  const CharacterModel body = sample_model(16, {20, 130, 300, 5000, 200, 4});
+  nook_model model = load_model(host.handle, body);
+  const ArrayBytes arrays = array_bytes(body);
+  for (const int tier : tiers_of(context)) {
+    INFO("tier " << tier);
+    CrowdOptions options;
+    options.instances = 12;
+    options.links = options.nearest = options.occluders = false;
+    Crowd crowd(host.handle, {model}, {20}, options);
+    const nook_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+    NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[0], &lobe, 1));
+    const long long full = bytes_of(crowd);
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
+    const long long left_out = computes(tier) ? 12 * arrays.instance + arrays.light : 0;
+    CHECK(full - bytes_of(crowd) == left_out);
+    // A new instance, a first light and another model bring no arrays either.
+    const long long before = bytes_of(crowd);
+    if (computes(tier)) {
+      CHECK(nook_scene_remove_instance(crowd.scene, crowd.ids[11]) == NOOK_OK);
+      crowd.ids.pop_back();
+      crowd.add(11);
+      CHECK(nook_scene_set_model(crowd.scene, crowd.ids[2], model) == NOOK_OK);
+      CHECK(bytes_of(crowd) == before);
+      NOOK_OK_OR_FAIL(nook_scene_set_light(crowd.scene, crowd.ids[1], &lobe, 1));
+      CHECK(bytes_of(crowd) - before ==
+            static_cast<long long>(max_light_lobes * (sizeof(LightLobe) + sizeof(LobeBands))));
+    }
+    // An update on the CPU gets all of them, and the next ones allocate nothing. Its results stay readable.
+    const long long without = bytes_of(crowd);
+    NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+    CHECK(bytes_of(crowd) - without == (computes(tier) ? 12 * arrays.instance + 2 * arrays.light : 0));
+    const std::vector<float> ao = cpu_ao(crowd, model, 3);
+    NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, crowd.scene));
+    CHECK(cpu_ao(crowd, model, 3) == ao);
+    const long allocations = host.allocations;
+    for (std::uint32_t frame = 1; frame < 4; ++frame) {
+      crowd.pose(frame);
+      NOOK_OK_OR_FAIL(nook_scene_update(crowd.scene));
+    }
+    CHECK(host.allocations == allocations);
+    nook_gl_destroy(&gl);
+  }
+  nook_model_destroy(&model);
+}
+
+TEST_CASE("an update on the CPU after updates in shaders has the bits of a scene without OpenGL") {
+  NOOK_NEED_CONTEXT(context);
+  for (const int tier : tiers_of(context)) {
+    INFO("tier " << tier);
+    const Cast cast(KernelForm::nook, 1, true);
+    LitCrowd plain(cast), left(cast);
+    nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tier);
+    const auto pose = [&](std::uint32_t frame) {
+      plain.pose(frame);
+      left.pose(frame);
+    };
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, left.scene));
+    pose(1);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, left.scene));
+    // The scene changes while it has no arrays.
+    for (LitCrowd* crowd : {&plain, &left}) {
+      NOOK_OK_OR_FAIL(nook_scene_remove_instance(crowd->scene, crowd->ids.back()));
+      crowd->ids.pop_back();
+      crowd->add(8);
+      crowd->light(4);
+      NOOK_OK_OR_FAIL(nook_scene_set_model(crowd->scene, crowd->ids[3], cast.model_of(3)));
+    }
+    for (std::uint32_t frame = 2; frame < 5; ++frame) {
+      pose(frame);
+      NOOK_OK_OR_FAIL(nook_scene_update(plain.scene));
+      NOOK_OK_OR_FAIL(nook_scene_update(left.scene));
+      check_same_results(plain, left, cast);
+      NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, left.scene));
+      check_same_results(plain, left, cast);
+    }
+    nook_gl_destroy(&gl);
+  }
+}
+
+TEST_CASE("a refused allocation of the CPU's arrays is one error, and the scene goes on without them") {
+  NOOK_NEED_CONTEXT(context);
+  if (!computes(tiers_of(context).front())) return;
+  Cast cast(KernelForm::nook, 1.5f, true);
+  LitCrowd plain(cast), left(cast);
+  NOOK_OK_OR_FAIL(nook_scene_update(plain.scene));
+  nook_gl gl = create_gl(cast.context.handle, platform::Context::loader, &context, tiers_of(context).front());
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, left.scene));
+  const long long bytes = cast.context.bytes;
+  int refusals = 0;
+  for (long n = 0;; ++n) {
+    cast.context.refuse_after = n;
+    const nook_result result = nook_scene_update(left.scene);
+    cast.context.refuse_after = -1;
+    if (result == NOOK_OK) break;
+    ++refusals;
+    INFO("allocation " << n);
+    REQUIRE(result == NOOK_ERROR_OUT_OF_MEMORY);
+    CHECK(cast.context.bytes == bytes);
+    // As before the first update on the CPU.
+    for (const float ao : cpu_ao(left, cast.model_of(1), 1)) REQUIRE(ao == 1);
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, left.scene));
+  }
+  // Two arrays of each of nine instances, and one of each of three lights.
+  CHECK(refusals == 2 * 9 + 3);
+  check_same_results(plain, left, cast);
+  nook_gl_destroy(&gl);
+
+  // A tier without compute shaders needs the arrays too, and asks for them when it prepares.
+  LitCrowd moving(cast);
+  gl = create_gl(cast.context.handle, platform::Context::loader, &context, tiers_of(context).front());
+  NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, moving.scene));
+  nook_gl_destroy(&gl);
+  gl = create_gl(cast.context.handle, platform::Context::loader, &context, tiers_of(context).back());
+  const long long without = bytes_of(moving);
+  cast.context.refuse_after = 2 * 9 + 2;
+  CHECK(nook_gl_scene_prepare(gl, moving.scene) == NOOK_ERROR_OUT_OF_MEMORY);
+  cast.context.refuse_after = -1;
+  CHECK(bytes_of(moving) == without);
+  NOOK_OK_OR_FAIL(nook_gl_scene_prepare(gl, moving.scene));
+  const long allocations = cast.context.allocations;
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, moving.scene));
+  CHECK(cast.context.allocations == allocations);
+  CHECK(difference_to_cpu(gl, moving, cast.model_of(0), 0) < promised_difference);
+  nook_gl_destroy(&gl);
+}
+
+TEST_CASE("the memory of an instance is what the documents say") {
+  NOOK_NEED_CONTEXT(context);
+  CountedContext host;
+  const std::vector<unsigned char> file = platform::read_file(NOOK_MANNEQUIN);
+  const CharacterModel body =
+      read_character_model({reinterpret_cast<const std::byte*>(file.data()), file.size()});
+  nook_model model = load_model(host.handle, body);
+  constexpr std::uint32_t count = 256;
+  CrowdOptions options;
+  options.instances = count;
+  options.links = options.nearest = options.occluders = false;
+  for (const int tier : tiers_of(context)) {
+    Crowd crowd(host.handle, {model}, {static_cast<std::uint32_t>(body.bone_count())}, options);
+    nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
+    nook_gl_memory memory{};
+    memory.struct_size = sizeof memory;
+    NOOK_OK_OR_FAIL(nook_gl_model_memory(gl, model, &memory));
+    const double full = double(bytes_of(crowd)) / count;
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
+    const double held = double(bytes_of(crowd)) / count;
+    const double lit = max_light_lobes * (sizeof(LightLobe) + sizeof(LobeBands)) +
+                       (computes(tier) ? 0.0 : double(array_bytes(body).light));
+    std::printf(
+        "memory of an instance, tier %d: %.0f bytes on the host (%.0f for an update on the CPU: %zu in the "
+        "instance, %zu of bones, %lld of arrays), %.0f with a light; %llu in OpenGL (%u of AO)\n",
+        tier, held, full, sizeof(Instance), body.bone_count() * sizeof(Mat3x4), array_bytes(body).instance,
+        held + lit, static_cast<unsigned long long>(memory.instance_bytes), 4 * file_vertices(model));
+    // docs/conventions.md: 53 KB with the arrays, and 6 KB without.
+    CHECK(full < 1.15 * 53e3);
+    CHECK(held < (computes(tier) ? 6e3 : 1.15 * 53e3));
+    nook_gl_destroy(&gl);
+  }
+  nook_model_destroy(&model);
+}
 
 TEST_CASE("an update allocates nothing, reads nothing back and queries only to preserve") {
   NOOK_NEED_CONTEXT(context);

@@ -198,6 +198,7 @@ nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms) {
 nook_result nook_scene_update(nook_scene scene) {
   return with_scene("nook_scene_update", scene, [](Scene& s) {
     need_cpu_poses(s);
+    make_arrays(s);
     update(s);
   });
 }

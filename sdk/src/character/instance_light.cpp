@@ -29,18 +29,28 @@ void check_lobe(const SphericalGaussian& lobe, std::size_t index) {
                     index, double(channel));
 }
 
-void allocate(InstanceLight& light, const PointLanes& points, Memory* memory) {
-  AlignedArray<LightLobe> lobes(max_light_lobes, memory);
-  AlignedArray<LobeBands> lobe_bands(max_light_lobes, memory);
-  light.storage = AlignedArray<float>(light_lanes * points.padded_count, memory);
-  light.lobes = std::move(lobes);
-  light.lobe_bands = std::move(lobe_bands);
+// Points the lanes into the storage.
+void take_storage(InstanceLight& light, AlignedArray<float> storage) {
+  light.storage = std::move(storage);
+  const std::size_t length = light.storage.size() / light_lanes;
   float* at = light.storage.data();
   for (auto lanes : {&light.shadow, &light.added, &light.sum, &light.open, &light.inverse})
     for (float*& lane : *lanes) {
       lane = at;
-      at += points.padded_count;
+      at += length;
     }
+}
+
+AlignedArray<float> make_storage(const LoadedModel& model, Memory* memory) {
+  return AlignedArray<float>(std::size_t{light_lanes} * model.rest_key_points.padded_count(), memory);
+}
+
+void allocate(InstanceLight& light, const Scene& scene, const LoadedModel& model) {
+  AlignedArray<LightLobe> lobes(max_light_lobes, scene.memory);
+  AlignedArray<LobeBands> lobe_bands(max_light_lobes, scene.memory);
+  if (scene.has_arrays) take_storage(light, make_storage(model, scene.memory));
+  light.lobes = std::move(lobes);
+  light.lobe_bands = std::move(lobe_bands);
 }
 
 void fill(float* const* lanes, std::uint32_t count, float value) {
@@ -127,7 +137,7 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
   check_light_lobes(lobes);
   InstanceLight& light = instance.light;
   if (!lobes.empty() && light.lobes.size() == 0) {
-    allocate(light, instance.result.arrays.points, scene.memory);
+    allocate(light, scene, *instance.model);
     ++scene.structure_revision;
   }
   for (std::size_t i = 0; i < lobes.size(); ++i) {
@@ -141,10 +151,18 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
   if (lobes.empty()) light.evaluated = false;
 }
 
-InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, Memory* memory) {
+void make_light_arrays(const Scene& scene, Instance& instance) {
+  if (instance.light.lobes.size()) take_storage(instance.light, make_storage(*instance.model, scene.memory));
+}
+
+void leave_light_arrays(Instance& instance) noexcept {
+  take_storage(instance.light, {});
+}
+
+InstanceLight moved_light(const Scene& scene, const InstanceLight& light, const LoadedModel& model) {
   InstanceLight moved;
   if (light.lobes.size() == 0) return moved;
-  allocate(moved, points, memory);
+  allocate(moved, scene, model);
   std::copy(light.lobes.begin(), light.lobes.end(), moved.lobes.begin());
   std::copy(light.lobe_bands.begin(), light.lobe_bands.end(), moved.lobe_bands.begin());
   moved.count = light.count;

@@ -13,7 +13,7 @@
 namespace nook {
 
 struct Instance;
-struct PointLanes;
+struct LoadedModel;
 struct Scene;
 
 inline constexpr std::uint32_t max_light_lobes = NOOK_PROBE_MAX_FUNCTIONS;
@@ -50,7 +50,11 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
 
 // Returns the light of an instance for another model. The new light has the same lobes, but is not evaluated
 // yet. Throws std::bad_alloc.
-InstanceLight moved_light(const InstanceLight& light, const PointLanes& points, Memory* memory);
+InstanceLight moved_light(const Scene& scene, const InstanceLight& light, const LoadedModel& model);
+
+// The light's part of make_arrays and leave_arrays (scene.h).
+void make_light_arrays(const Scene& scene, Instance& instance);
+void leave_light_arrays(Instance& instance) noexcept;
 
 // Call it after resolve_casters. Computes the fraction of each lobe that the ground does not hide, and the
 // bands of the remaining light. Does nothing without a light.

@@ -254,6 +254,12 @@ struct Scene {
   Vec3 camera;
   std::uint32_t terms = NOOK_TERM_ALL;
 
+  // False while only shaders update the scene. Then the instances have no InstanceArrays, and their lights
+  // have no InstanceLight::storage.
+  bool has_arrays = true;
+  // True after the first update on the CPU. Then the instances keep their arrays, from which the host reads.
+  bool was_updated_on_cpu = false;
+
   // Scratch memory in which a whole pose is converted before it is set.
   Vector<Mat3x4> converted;
   UnevenBones converted_uneven;
@@ -286,6 +292,12 @@ void set_ground(Scene& scene, nook_instance_id id, const Plane* plane);
 nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere, nook_instance_id receiver = 0);
 void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere, nook_instance_id receiver = 0);
 void remove_occluder(Scene& scene, nook_occluder_id id);
+// Gives every instance the arrays in which an update on the CPU computes, and from now on every new one.
+// Allocates only after leave_arrays. Throws std::bad_alloc.
+void make_arrays(Scene& scene);
+// Releases these arrays, because shaders update the scene. Does nothing after an update on the CPU, which
+// left results in them.
+void leave_arrays(Scene& scene) noexcept;
 
 // An id holds the slot + 1 in its low bits and the slot's generation in its high bits. When all generations
 // of a slot are used up, the slot is never used again, so every id is unique.
@@ -327,7 +339,7 @@ void transform_key_points(const Scene& scene, Instance& instance) noexcept;
 // Computes shadow and added occlusion at the key points of an instance. If the instance has a light, also
 // computes their colours (instance_light.h). The instance must be due.
 void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;
-// Runs all steps above for all instances, and computes the statistics.
+// Runs all steps above for all instances, and computes the statistics. The instances must have their arrays.
 void update(Scene& scene) noexcept;
 
 // Blends the key points to vertices, and writes the AO of the last update in file order. `out` holds one

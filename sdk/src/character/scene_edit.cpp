@@ -147,7 +147,7 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
     scene.converted.resize(added.input.bones.size());
     scene.converted_uneven.resize(added.input.bones.size());
   }
-  added.result.arrays = make_instance_arrays(*model, scene.memory);
+  if (scene.has_arrays) added.result.arrays = make_instance_arrays(*model, scene.memory);
   added.casters.posed.resize(model->model.world_casters.size());
   added.plan.casters.reserve(scene.nearest);
   added.plan.occluders.reserve(scene.occluders.size());
@@ -234,6 +234,30 @@ PoseNotes set_bones(Instance& instance, std::span<const Mat3x4> bones, bool is_s
 
 }  // namespace
 
+void make_arrays(Scene& scene) {
+  if (scene.has_arrays) return;
+  try {
+    for (Instance& instance : scene.instances) {
+      if (instance.id == 0) continue;
+      instance.result.arrays = make_instance_arrays(*instance.model, scene.memory);
+      make_light_arrays(scene, instance);
+    }
+  } catch (...) {
+    leave_arrays(scene);
+    throw;
+  }
+  scene.has_arrays = true;
+}
+
+void leave_arrays(Scene& scene) noexcept {
+  if (scene.was_updated_on_cpu) return;
+  for (Instance& instance : scene.instances) {
+    instance.result.arrays = {};
+    leave_light_arrays(instance);
+  }
+  scene.has_arrays = false;
+}
+
 void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) {
   Instance& instance = instance_of(scene, id);
   if (model->model.bone_count() != instance.input.bones.size())
@@ -243,8 +267,9 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
                   model->model.bone_count(), instance.input.bones.size());
   need_cpu_pose(instance);
   decode_late_bones(instance);
-  InstanceArrays arrays = make_instance_arrays(*model, scene.memory);
-  InstanceLight light = moved_light(instance.light, arrays.points, scene.memory);
+  InstanceArrays arrays;
+  if (scene.has_arrays) arrays = make_instance_arrays(*model, scene.memory);
+  InstanceLight light = moved_light(scene, instance.light, *model);
   InstanceCasters casters(scene.memory);
   casters.posed.resize(model->model.world_casters.size());
   instance.result.arrays = std::move(arrays);

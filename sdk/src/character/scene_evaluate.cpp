@@ -165,6 +165,7 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
 
 void update(Scene& scene) noexcept {
   ++scene.frame;
+  scene.was_updated_on_cpu = true;
   resolve_casters(scene,
                   [&](std::uint32_t slot) { return scene.instances[slot].result.evaluated_frame > 0; });
   const auto slots = static_cast<std::uint32_t>(scene.instances.size());

@@ -15,7 +15,12 @@ void CharacterGl::prepare(const SceneHandle& handle) {
   release_destroyed();
   const auto known = [&](const SceneHandle& of) { return of.scene == handle.scene; };
   if (std::none_of(scenes_.begin(), scenes_.end(), known)) scenes_.push_back(handle);
+  const bool computes = std::holds_alternative<ComputeTier>(storage_);
+  // The other tier updates key points on the CPU.
+  if (!computes) make_arrays(*handle.scene);
   tier_->prepare(*handle.scene);
+  // If it failed, the host can still update on the CPU without an allocation.
+  if (computes && handle.scene->has_arrays) leave_arrays(*handle.scene);
 }
 
 void CharacterGl::update(const SceneHandle& handle) {
