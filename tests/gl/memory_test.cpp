@@ -243,15 +243,37 @@ TEST_CASE("the memory of an instance is what the documents say") {
     memory.struct_size = sizeof memory;
     NOOK_OK_OR_FAIL(nook_gl_model_memory(gl, model, &memory));
     const double full = double(bytes_of(crowd)) / count;
+    const long long before = host.bytes - bytes_of(crowd);
     NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
     const double held = double(bytes_of(crowd)) / count;
+    const double places = double(host.bytes - bytes_of(crowd) - before) / count;
     const double lit = max_light_lobes * (sizeof(LightLobe) + sizeof(LobeBands)) +
                        (computes(tier) ? 0.0 : double(array_bytes(body).light));
+    const std::size_t bones = body.bone_count() * sizeof(Mat3x4),
+                      casters = body.world_casters.size() * sizeof(PosedCaster);
     std::printf(
-        "memory of an instance, tier %d: %.0f bytes on the host (%.0f for an update on the CPU: %zu in the "
-        "instance, %zu of bones, %lld of arrays), %.0f with a light; %llu in OpenGL (%u of AO)\n",
-        tier, held, full, sizeof(Instance), body.bone_count() * sizeof(Mat3x4), array_bytes(body).instance,
-        held + lit, static_cast<unsigned long long>(memory.instance_bytes), 4 * file_vertices(model));
+        "memory of an instance, tier %d: %.0f bytes in the scene (%.0f for an update on the CPU: %zu of the "
+        "struct, %zu of bones, %zu of world casters, %lld of arrays), %.0f with a light; %.0f of places in "
+        "nook_gl\n",
+        tier, held, full, sizeof(Instance), bones, casters, array_bytes(body).instance, held + lit, places);
+    // What compute shaders keep of an instance: AO, two numbers for each key point and for each point of the
+    // largest coarse level, two vectors for each sphere of each level, and in the stream a record and bones.
+    std::size_t spheres = body.spheres.size(), coarse = 0;
+    for (const CharacterLevel& level : body.levels) {
+      spheres += level.spheres.size();
+      coarse = std::max(coarse, level.evaluated.size());
+    }
+    const std::size_t ao = sizeof(float) * file_vertices(model),
+                      shadows = 2 * sizeof(float) * (body.key_points.size() + coarse), posed = 32 * spheres,
+                      stream = 32 + bones;
+    if (computes(tier)) {
+      std::printf(
+          "OpenGL memory of an instance, tier %d: %zu bytes of AO, %zu of shadows, %zu of spheres, %zu of "
+          "the "
+          "stream\n",
+          tier, ao, shadows, posed, stream);
+      CHECK(memory.instance_bytes == ao + shadows + posed + stream);
+    }
     // docs/conventions.md: 53 KB with the arrays, and 6 KB without.
     CHECK(full < 1.15 * 53e3);
     CHECK(held < (computes(tier) ? 6e3 : 1.15 * 53e3));
