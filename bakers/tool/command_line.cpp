@@ -150,8 +150,8 @@ std::string fault_of_path(const std::string& path) {
                      : "";
 }
 
-// Refuses what a conversion to an unsigned type would change without a word: it takes -1 as the largest number,
-// and numbers that are too large as well.
+// Refuses what a conversion to an unsigned type would change without a word: it takes -1 as the largest
+// number, and numbers that are too large as well.
 std::string fault_of_whole_number(const std::string& text, std::uint64_t largest) {
   std::uint64_t number = 0;
   const char* end = text.data() + text.size();

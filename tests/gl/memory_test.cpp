@@ -268,9 +268,8 @@ TEST_CASE("the memory of an instance is what the documents say") {
                       stream = 32 + bones;
     if (computes(tier)) {
       std::printf(
-          "OpenGL memory of an instance, tier %d: %zu bytes of AO, %zu of shadows, %zu of spheres, %zu of "
-          "the "
-          "stream\n",
+          "OpenGL memory of an instance, tier %d: %zu bytes of AO, %zu of shadows, %zu of "
+          "spheres, %zu of the stream\n",
           tier, ao, shadows, posed, stream);
       CHECK(memory.instance_bytes == ao + shadows + posed + stream);
     }
