@@ -104,8 +104,9 @@ void add_bake_options(Command command, BakeOptions& options) {
                      "instead of baked; default NOOK_CACHE, if it is set");
   command
       .add_option("--isa", options.isa,
-                  "the instruction set to bake with, so that different processors give the same bytes: "
-                  "x86-64-v2, x86-64-v3, or native, which is the best that this processor has (default)")
+                  "the instruction set to bake with, so that old and new processors of one maker give the "
+                  "same bytes: x86-64-v2, x86-64-v3, or native, which is the best that this processor "
+                  "has (default)")
       .check(one_of({"native", "x86-64-v2", "x86-64-v3"}));
 }
 
