@@ -16,6 +16,34 @@ struct ClipSample {
   std::vector<std::vector<Mat3x4>> poses;  // of each frame, one matrix for each bone
 };
 
+// Fills the table with the poses, each in a mode of its own.
+inline void plant_poses(ClipSample& sample) {
+  ClipSet& set = sample.set;
+  const auto frames = static_cast<std::uint32_t>(sample.poses.size());
+  set.pose.mode.clear();
+  set.pose.weight.clear();
+  set.pose.scale.clear();
+  set.pose.rows = pose_rows_per_bone * static_cast<std::uint32_t>(set.bones.size());
+  set.pose.modes = frames;
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    std::vector<float> rows;
+    for (std::size_t b = 0; b < set.bones.size(); ++b) {
+      const Mat3x4& matrix = sample.poses[f][b];
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) rows.push_back(set.bones[b].radius * matrix.m[4 * i + j]);
+      const Vec3 centre = transform_point(matrix, set.bones[b].centre);
+      rows.insert(rows.end(), {centre.x, centre.y, centre.z});
+    }
+    float largest = 0;
+    for (const float row : rows) largest = std::max(largest, std::abs(row));
+    for (const float row : rows)
+      set.pose.mode.push_back(static_cast<std::int16_t>(std::lround(row / largest * 32767)));
+    set.pose.scale.push_back(largest);
+    for (std::uint32_t k = 0; k < frames; ++k)
+      set.pose.weight.push_back(static_cast<std::int16_t>(k == f ? 32767 : 0));
+  }
+}
+
 inline ClipSample sample_clips(const CharacterModel& model, std::uint32_t seed = 1,
                                std::uint32_t ao_modes = 8) {
   constexpr std::uint32_t frames = 6;
@@ -42,27 +70,11 @@ inline ClipSample sample_clips(const CharacterModel& model, std::uint32_t seed =
   const auto bones = static_cast<std::uint32_t>(model.bone_count());
   for (std::uint32_t b = 0; b < bones; ++b)
     set.bones.push_back({numbers.place(0.3f), numbers.between(0.05f, 0.2f)});
-  set.pose.rows = pose_rows_per_bone * bones;
-  set.pose.modes = frames;
   for (std::uint32_t f = 0; f < frames; ++f) {
-    std::vector<float> rows;
     std::vector<Mat3x4>& pose = sample.poses.emplace_back();
-    for (std::uint32_t b = 0; b < bones; ++b) {
-      const Mat3x4 matrix = random_frame(numbers);
-      pose.push_back(matrix);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) rows.push_back(set.bones[b].radius * matrix.m[4 * i + j]);
-      const Vec3 centre = transform_point(matrix, set.bones[b].centre);
-      rows.insert(rows.end(), {centre.x, centre.y, centre.z});
-    }
-    float largest = 0;
-    for (const float row : rows) largest = std::max(largest, std::abs(row));
-    for (const float row : rows)
-      set.pose.mode.push_back(static_cast<std::int16_t>(std::lround(row / largest * 32767)));
-    set.pose.scale.push_back(largest);
-    for (std::uint32_t k = 0; k < frames; ++k)
-      set.pose.weight.push_back(static_cast<std::int16_t>(k == f ? 32767 : 0));
+    for (std::uint32_t b = 0; b < bones; ++b) pose.push_back(random_frame(numbers));
   }
+  plant_poses(sample);
   set.recipe = "{\"rays\": 1}";
   return sample;
 }

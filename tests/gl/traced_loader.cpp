@@ -135,6 +135,19 @@ int Trace::calls_that_begin(const std::string& prefix) const {
   return sum;
 }
 
+std::set<std::string> Trace::forbidden_in_frame(bool preserves_state) const {
+  std::vector<std::string> prefixes = {"glGen", "glGetError", "glGetBufferSubData", "glFinish",
+                                       "glClientWaitSync"};
+  if (!preserves_state) prefixes.insert(prefixes.end(), {"glGet", "glIs"});
+  std::set<std::string> out;
+  for (int i = 0; i < id_count; ++i) {
+    const auto begins = [&](const std::string& prefix) { return std::string(names[i]).starts_with(prefix); };
+    if (counts.calls[i] > 0 && std::any_of(prefixes.begin(), prefixes.end(), begins)) out.insert(names[i]);
+  }
+  if (mapped_for_reading()) out.insert("glMapBufferRange for reading");
+  return out;
+}
+
 bool Trace::mapped_for_reading() const {
   return counts.mapped_for_reading;
 }

@@ -35,6 +35,9 @@ class Trace {
   int calls(const std::string& name) const;  // "glMapBufferRange"
   int calls_that_begin(const std::string& prefix) const;
   bool mapped_for_reading() const;
+  // Returns the functions called since reset() that no frame may call, because they make objects, wait for
+  // the GPU or read back. Unless Nook preserves the state, functions that query it count too.
+  std::set<std::string> forbidden_in_frame(bool preserves_state) const;
   std::set<std::string> asked;  // every name that the loader has looked up
 
   // Overwrites the buffer that is bound to GL_ARRAY_BUFFER.
