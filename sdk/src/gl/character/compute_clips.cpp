@@ -2,7 +2,6 @@
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/gl/character/compute_tier.h"
-#include "shaders/character/layout.h"
 
 namespace nook::gl {
 namespace {
@@ -105,12 +104,7 @@ std::uint32_t ComputeScene::number_of_clips(const Instance& instance) const {
 
 void ComputeTier::decode_clips(const Update& update) const {
   const Functions& gl = device_.gl;
-  bool any = false;
-  for (const ComputeChunk& chunk : update.placed.chunks) {
-    if (chunk.frame.late == 0) continue;
-    if (!any) gl.UseProgram(decode_clips_.name());
-    any = true;
-    bind_piece(gl, NOOK_BINDING_STREAM, update.placed.stream, chunk.frame.offset, chunk.frame.bytes);
+  write_bones(update, decode_clips_, &ComputeChunk::Frame::late, [&](const ComputeChunk& chunk) {
     for (const PlacedClips& clips : update.placed.clips) {
       if (clips.clips->model.get() != chunk.model->model.get()) continue;
       bind_whole(gl, NOOK_BINDING_MODEL, clips.table);
@@ -121,8 +115,7 @@ void ComputeTier::decode_clips(const Update& update) const {
       gl.Uniform1ui(NOOK_LOCATION_CLIP_FIRST_MODE, clips.first_mode());
       gl.DispatchCompute(chunk.frame.selected, 1, 1);
     }
-  }
-  if (any) gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  });
 }
 
 }  // namespace nook::gl

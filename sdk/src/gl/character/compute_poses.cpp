@@ -6,7 +6,6 @@
 #include "sdk/src/core/floats.h"
 #include "sdk/src/gl/character/compute_tier.h"
 #include "sdk/src/gl/shader_program.h"
-#include "shaders/character/layout.h"
 
 namespace nook::gl {
 namespace {
@@ -244,17 +243,11 @@ void ComputeTier::convert_poses(const ComputeScene& placed, const PoseBatch& bat
 
 void ComputeTier::place_poses(const Update& update) const {
   const Functions& gl = device_.gl;
-  bool any = false;
-  for (const ComputeChunk& chunk : update.placed.chunks) {
-    if (chunk.frame.posed == 0) continue;
-    if (!any) gl.UseProgram(place_poses_.name());
-    any = true;
-    bind_piece(gl, NOOK_BINDING_STREAM, update.placed.stream, chunk.frame.offset, chunk.frame.bytes);
+  write_bones(update, place_poses_, &ComputeChunk::Frame::posed, [&](const ComputeChunk& chunk) {
     bind_whole(gl, NOOK_BINDING_MODEL, chunk.posed);
     gl.Uniform1ui(NOOK_LOCATION_PLACED_BONE_COUNT, chunk.model->bones());
     gl.DispatchCompute(chunk.frame.selected, 1, 1);
-  }
-  if (any) gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  });
 }
 
 void ComputeTier::read_pose(const Scene& scene, nook_instance_id id, std::span<Mat3x4> bones) const {

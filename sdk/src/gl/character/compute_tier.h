@@ -3,6 +3,7 @@
 
 #include "sdk/src/gl/character/compute_scene.h"
 #include "sdk/src/gl/character/tier.h"
+#include "shaders/character/layout.h"
 
 namespace nook::gl {
 
@@ -33,6 +34,22 @@ class ComputeTier final : public Tier {
   void place_poses(const Update& update) const;
   // Decodes the bones of clips there (compute_clips.cpp).
   void decode_clips(const Update& update) const;
+  // Writes bones in each chunk whose `count` is above 0: binds the chunk's stream and calls `dispatch` for
+  // it. The passes that follow see the bones.
+  template <class Dispatch>
+  void write_bones(const Update& update, const Object& program, std::uint32_t ComputeChunk::Frame::*count,
+                   const Dispatch& dispatch) const {
+    const Functions& gl = device_.gl;
+    bool any = false;
+    for (const ComputeChunk& chunk : update.placed.chunks) {
+      if (chunk.frame.*count == 0) continue;
+      if (!any) gl.UseProgram(program.name());
+      any = true;
+      bind_piece(gl, NOOK_BINDING_STREAM, update.placed.stream, chunk.frame.offset, chunk.frame.bytes);
+      dispatch(chunk);
+    }
+    if (any) gl.MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+  }
   void run_spheres(const Update& update) const;
   void run_key_points(const Update& update, const ComputeChunk& chunk) const;
   void spread_levels(const Update& update, const ComputeChunk& chunk) const;
