@@ -1,6 +1,11 @@
 // nook-lab evaluate nnao as a user runs it, on the built-in scene and on files.
+#include <signal.h>
+
+#include <chrono>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "tests/bakers/tool/glb_tube.h"
 #include "tests/bakers/tool/tool_run.h"
@@ -112,6 +117,63 @@ TEST_CASE("evaluate nnao tells of several scenes each and their mean, with anoth
   CHECK(markdown.find("| method | taps | corner | other | thin | mean |\n") == 0);
   CHECK(markdown.find("| nnao | 64 | no |") != std::string::npos);
   CHECK(markdown.find("| nnao 16 | gtao 16 |") != std::string::npos);
+}
+
+TEST_CASE("evaluate nnao that is killed keeps its references, and goes on to the same numbers") {
+  namespace fs = std::filesystem;
+  const TestFolder folder;
+  write_text(folder.path("corner.glb"), corner_gltf);
+  const int count = 12;
+  nlohmann::json cameras = nlohmann::json::array();
+  for (int i = 0; i < count; ++i)
+    cameras.push_back({{"name", "c" + std::to_string(i)},
+                       {"eye", {0.1 * i, 1.5, 1.5}},
+                       {"target", {0, 0, -2}},
+                       {"fov", 60}});
+  const nlohmann::json scene = {{"name", "corner"}, {"radius", 0.5}, {"cameras", cameras}};
+  const nlohmann::json source = {{"name", "A"}, {"scenes", {scene}}};
+  write_text(folder.path("views.json"),
+             nlohmann::json{{"size", "96x72"}, {"rays", 1024}, {"sources", {source}}}.dump());
+  const auto command = [&](const char* references) {
+    return std::vector<std::string>{
+        "evaluate",           "nnao",          "--views",      folder.path("views.json"),
+        "--folder",           folder.path(""), "--references", folder.path(references),
+        "--methods",          "nnao:16",       "--no-raw",     "--report",
+        folder.path("r.json")};
+  };
+  const auto kept = [&] {
+    std::map<std::string, fs::file_time_type> times;
+    if (fs::exists(folder.path("kept")))
+      for (const fs::directory_entry& entry : fs::directory_iterator(folder.path("kept")))
+        if (entry.path().extension() == ".truth") times[entry.path()] = entry.last_write_time();
+    return times;
+  };
+  const auto report_of_run = [&](const char* references) {
+    const ToolRun run = lab(folder, command(references));
+    INFO(run.error);
+    REQUIRE(run.exit_code == 0);
+    return nlohmann::json::parse(read_text(folder.path("r.json"))).at("views");
+  };
+
+  // A farm kills without a warning, and starts the same command again.
+  const int child = folder.start_program(NOOK_LAB_TOOL, command("kept"));
+  const auto began = std::chrono::steady_clock::now();
+  while (kept().size() < 2 && std::chrono::steady_clock::now() - began < std::chrono::minutes(5))
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  kill(child, SIGKILL);
+  REQUIRE(folder.finish(child).exit_code == 128 + SIGKILL);
+  const auto before = kept();
+  REQUIRE(before.size() >= 2);
+  REQUIRE(before.size() < count);
+  CHECK_FALSE(fs::exists(folder.path("r.json")));
+
+  const nlohmann::json resumed = report_of_run("kept");
+  const auto after = kept();
+  CHECK(after.size() == count);
+  for (const auto& [file, time] : before) CHECK(after.at(file) == time);
+  const nlohmann::json whole = report_of_run("other");
+  REQUIRE(resumed.size() == count);
+  for (std::size_t i = 0; i < count; ++i) CHECK(resumed.at(i).at("mse") == whole.at(i).at("mse"));
 }
 
 TEST_CASE("evaluate nnao measures a list of views by source and keeps their references") {
