@@ -5,13 +5,14 @@
 #
 #   tests/farm.sh            installs packages.txt and tests/farm_packages.txt, builds the tool and runs everything
 #   tests/farm.sh PART...    only these parts: engines bad_input slurm_node dask_worker two_farms full_disk full_cache
+#                            processors
 #
 # NOOK_BUILD_DIR is the build folder (default: build). With NOOK_TOOL and NOOK_WRITE_TUBE, the paths of programs that are built,
 # the script builds and installs nothing. Full disks need root, who can mount a small one; without root they are skipped.
 set -uo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 build=${NOOK_BUILD_DIR:-$root/build}
-all_parts=(engines bad_input slurm_node dask_worker two_farms full_disk full_cache)
+all_parts=(engines bad_input slurm_node dask_worker two_farms full_disk full_cache processors)
 parts=("$@")
 [ $# -gt 0 ] || parts=("${all_parts[@]}")
 for part in "${parts[@]}"; do
@@ -385,6 +386,28 @@ full_cache() {
     check "a full cache, run $round: equal bytes" same_as_reference "$work/full_cache_$round"
     check "a full cache, run $round: no parts" no_parts "$cache"
   done
+}
+
+# Bakes on an emulated processor. The tool would start itself again to pin the instruction set, and the new process would run on the
+# real processor; so the environment is pinned beforehand.
+bake_on() {  # PROCESSOR INSTRUCTION_SET NAME
+  local tunables=()
+  [ "$2" = x86-64-v2 ] && tunables=(GLIBC_TUNABLES=glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4)
+  env NOOK_ISA="$2" "${tunables[@]}" qemu-x86_64 -cpu "$1" "$nook" bake character "$work/in/hero.gltf" -o "$work/$3.nook" \
+    --preset draft --auto-poses 4 --rays 4 --steps 5 --spheres 4 --key-points 10 --threads 1 --quiet --isa "$2" 2> "$work/$3.log"
+}
+
+# Pinned bakes are equal on processors that have more instruction sets, and a processor that lacks the set refuses. Emulated
+# processors compute reciprocal roots exactly, so their bytes are not compared with the real one's.
+processors() {
+  check "x86-64-v3 on a Haswell" bake_on Haswell-noTSX x86-64-v3 haswell_v3
+  check "x86-64-v3 on an EPYC" bake_on EPYC x86-64-v3 epyc_v3
+  check "x86-64-v3: equal bytes" cmp "$work/haswell_v3.nook" "$work/epyc_v3.nook"
+  check "x86-64-v2 on a Nehalem" bake_on Nehalem x86-64-v2 nehalem_v2
+  check "x86-64-v2 on a Haswell" bake_on Haswell-noTSX x86-64-v2 haswell_v2
+  check "x86-64-v2: equal bytes" cmp "$work/nehalem_v2.nook" "$work/haswell_v2.nook"
+  bake_on Nehalem x86-64-v3 nehalem_v3 && failed "a Nehalem bakes with x86-64-v3"
+  check "a Nehalem refuses x86-64-v3" grep -q 'lacks the instruction set' "$work/nehalem_v3.log"
 }
 
 [ -x "$nook" ] && [ -x "$write_tube" ] || { say "farm.sh: there is no program $nook or $write_tube"; exit 1; }
