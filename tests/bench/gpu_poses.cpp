@@ -2,6 +2,8 @@
 // stub. Poses come from the CPU, then from the GPU, then from clips. For clips it also prints the times of
 // nook_scene_set_clips and of nook_scene_set_clip alone.
 // Usage: nook_gpu_poses_bench [instances] [clips]. With "clips" it leaves out the other poses.
+//        nook_gpu_poses_bench table [largest count]. Prints the frame's time and the memory of crowds of 100
+//        instances, of 1,000 and so on.
 #include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_gl_poses.h>
@@ -155,6 +157,19 @@ class Stage {
             }};
   }
 
+  nook_scene_info scene_info() const {
+    nook_scene_info info{};
+    info.struct_size = sizeof info;
+    need_ok(nook_scene_describe(scene_, &info));
+    return info;
+  }
+  nook_gl_info gl_info() const {
+    nook_gl_info info{};
+    info.struct_size = sizeof info;
+    need_ok(nook_gl_describe(gl_, &info));
+    return info;
+  }
+
   // Takes the size of the bodies' spheres from the CPU's poses, so that both crowds cull alike.
   void measure_bodies() {
     nook_scene_instance_info info{};
@@ -248,42 +263,78 @@ class Stage {
   float radius_ = 1;
 };
 
-}  // namespace
+// The crowd that a bench makes: its model, its clips and the number of bones.
+struct Crowd {
+  nook_context context;
+  nook_model model;
+  nook_clips clips;
+  std::uint32_t bones;
+};
 
-int main(int argc, char** argv) {
-  const auto count = static_cast<std::uint32_t>(argc > 1 ? std::atoi(argv[1]) : 10000);
-  const bool only_clips = argc > 2 && std::string_view(argv[2]) == "clips";
-  nook_context context = nullptr;
-  nook_context_desc desc;
-  need_ok(nook_context_desc_init(&desc));
-  need_ok(nook_context_create(&desc, &context));
-  const CharacterModel character = bench::sample_model();
-  const std::vector<std::byte> bytes = write_character_model(character),
-                               clip_bytes = write_clip_set(sample_clip(character));
-  nook_model model = nullptr;
-  need_ok(nook_model_load(context, bytes.data(), bytes.size(), &model));
-  nook_clips clips = nullptr;
-  need_ok(nook_clips_load(context, model, clip_bytes.data(), clip_bytes.size(), &clips));
-  const auto bones = static_cast<std::uint32_t>(character.bone_count());
-  std::printf("%u instances of %u bones; CPU time of a frame in µs for each instance\n", count, bones);
-  if (!only_clips) std::printf("neighbours   CPU poses   GPU poses   ratio   clips   ratio\n");
+void compare_poses(const Crowd& crowd, std::uint32_t count) {
+  std::printf("neighbours   CPU poses   GPU poses   ratio   clips   ratio\n");
   for (const std::uint32_t neighbours : {0u, 4u}) {
-    if (only_clips) break;
-    Stage stage(context, model, bones, count, neighbours);
+    Stage stage(crowd.context, crowd.model, crowd.bones, count, neighbours);
     const double cpu = median_seconds(stage.cpu_frame());
     stage.measure_bodies();
-    const double gpu = median_seconds(stage.gpu_frame()), played = median_seconds(stage.clips_frame(clips));
+    const double gpu = median_seconds(stage.gpu_frame()),
+                 played = median_seconds(stage.clips_frame(crowd.clips));
     std::printf("%10u   %9.3f   %9.3f   %5.3f   %5.3f   %5.3f\n", neighbours, 1e6 * cpu / count,
                 1e6 * gpu / count, gpu / cpu, 1e6 * played / count, played / cpu);
   }
-  {
-    Stage stage(context, model, bones, count, 0);
-    const double all = median_seconds(stage.set_clips_alone(clips)),
-                 each = median_seconds(stage.set_each_clip(clips));
-    std::printf("nook_scene_set_clips %.2f ms, nook_scene_set_clip of each instance %.0f ms\n", 1e3 * all,
-                1e3 * each);
+}
+
+void compare_clip_calls(const Crowd& crowd, std::uint32_t count) {
+  Stage stage(crowd.context, crowd.model, crowd.bones, count, 0);
+  const double all = median_seconds(stage.set_clips_alone(crowd.clips)),
+               each = median_seconds(stage.set_each_clip(crowd.clips));
+  std::printf("nook_scene_set_clips %.2f ms, nook_scene_set_clip of each instance %.0f ms\n", 1e3 * all,
+              1e3 * each);
+}
+
+void print_table(const Crowd& crowd, std::uint32_t largest) {
+  std::printf(
+      "                          ms of a frame                   bytes of an instance\n"
+      "instances   neighbours   CPU poses   GPU poses   clips      host    OpenGL\n");
+  for (std::uint32_t count = 100; count <= largest; count *= 10)
+    for (const std::uint32_t neighbours : {0u, 4u}) {
+      Stage stage(crowd.context, crowd.model, crowd.bones, count, neighbours);
+      const double cpu = median_seconds(stage.cpu_frame());
+      stage.measure_bodies();
+      const double gpu = median_seconds(stage.gpu_frame()),
+                   played = median_seconds(stage.clips_frame(crowd.clips));
+      const nook_gl_info gl = stage.gl_info();
+      std::printf("%9u   %10u   %9.3f   %9.3f   %5.3f   %7.0f   %7.0f\n", count, neighbours, 1e3 * cpu,
+                  1e3 * gpu, 1e3 * played, double(stage.scene_info().memory_bytes) / count,
+                  double(gl.buffer_bytes) / count);
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const bool is_table = argc > 1 && std::string_view(argv[1]) == "table";
+  const char* number = is_table ? (argc > 2 ? argv[2] : "100000") : (argc > 1 ? argv[1] : "10000");
+  const auto count = static_cast<std::uint32_t>(std::atoi(number));
+  Crowd crowd{};
+  nook_context_desc desc;
+  need_ok(nook_context_desc_init(&desc));
+  need_ok(nook_context_create(&desc, &crowd.context));
+  const CharacterModel character = bench::sample_model();
+  const std::vector<std::byte> bytes = write_character_model(character),
+                               clip_bytes = write_clip_set(sample_clip(character));
+  need_ok(nook_model_load(crowd.context, bytes.data(), bytes.size(), &crowd.model));
+  need_ok(nook_clips_load(crowd.context, crowd.model, clip_bytes.data(), clip_bytes.size(), &crowd.clips));
+  crowd.bones = static_cast<std::uint32_t>(character.bone_count());
+  if (is_table) {
+    print_table(crowd, count);
+  } else {
+    std::printf("%u instances of %u bones; CPU time of a frame in µs for each instance\n", count,
+                crowd.bones);
+    if (argc <= 2 || std::string_view(argv[2]) != "clips") compare_poses(crowd, count);
+    compare_clip_calls(crowd, count);
   }
-  nook_clips_destroy(&clips);
-  nook_model_destroy(&model);
-  nook_context_destroy(&context);
+  nook_clips_destroy(&crowd.clips);
+  nook_model_destroy(&crowd.model);
+  nook_context_destroy(&crowd.context);
 }
