@@ -47,7 +47,7 @@ typedef struct nook_model_info {
   uint32_t check_vertex_count;
   /* Bytes of host memory that all instances share, without the overhead of the allocator. */
   uint64_t model_bytes;
-  /* Bytes of host memory per instance, without links; and per instance that has a light. */
+  /* Bytes of host memory per instance that the CPU updates, without links; and per instance with a light. */
   uint64_t instance_bytes, lit_instance_bytes;
 } nook_model_info;
 
@@ -211,7 +211,8 @@ NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id ins
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
 /* Evaluates the shadows of all instances at their key points on the CPU. The call uses the context's
- * parallel_for if you set one. It does not allocate or lock. One at a time. Errors: INVALID_ARGUMENT. */
+ * parallel_for if you set one. It does not lock. It allocates only when compute shaders updated the scene
+ * before. One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 
 /* Reads a channel of an instance for each vertex, in the imported file's vertex order. Valid formats:

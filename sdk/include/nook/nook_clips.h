@@ -100,8 +100,7 @@ NOOK_API nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time
  * the clip until the next nook_scene_set_pose or nook_scene_set_model. nook_scene_read then gives the AO of
  * the clip times what the added casters of the last update leave open, also for each channel of directional
  * AO. The buffers of nook_gl_scene_update have only the second factor. The clips must have been loaded for
- * the instance's model. The call does not allocate. One at a time. Errors: INVALID_ARGUMENT,
- * INVALID_HANDLE. */
+ * the instance's model. It does not allocate. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, nook_clips clips,
                                          const nook_clip_time* time, const float* place_3x4);
 
