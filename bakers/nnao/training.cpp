@@ -191,7 +191,7 @@ constexpr std::uint64_t max_steps = std::uint64_t{1} << 48;
 
 // Returns true if training can produce these values. Then the next step is finite. With Adam's decay rates,
 // the square of the mean gradient is at most 53 times the mean squared gradient (Cauchy-Schwarz inequality).
-// Squares of gradients below 1e-18 underflow to 0.
+// If a gradient is below 1e-18, its square underflows to 0.
 bool is_reachable(float parameter, float mean, float square) {
   return std::abs(parameter) <= nook::nnao::max_parameter && std::isfinite(square) && square >= 0 &&
          std::abs(mean) <= 8 * std::sqrt(square) + 1e-18f;

@@ -74,7 +74,7 @@ uvec4 closed_by(Frame frame, ivec2 at, float depth, vec3 position, float radius)
   // Only surfaces within the radius form a horizon. Otherwise, every object in front of a wall would darken
   // the wall.
   if (thickness <= 0.0 && dot(front, front) > radius * radius) return uvec4(0u);
-  // Finds the part of the line front + s behind that is within the sphere of the radius.
+  // Finds the part of the line `front + s * behind` whose points are nearer to the origin than `radius`.
   float along = dot(front, behind), inside = along * along - dot(front, front) + radius * radius;
   if (inside <= 0.0) return uvec4(0u);
   float near = max(-along - sqrt(inside), 0.0), far = -along + sqrt(inside);
