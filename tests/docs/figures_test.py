@@ -32,8 +32,8 @@ def self_test(texts, bindings, figures):
             missed.append(f"{page}:{line}: {changed} in place of {token} passes")
     for name in sorted({name for *_, name in found}):
         other = copy.copy(figures)
-        # One and a half times a value differs at two digits or more, whatever the page shows.
-        other[name] = dict(figures[name], value=figures[name]["value"] * 1.5)
+        # One and a half times a value differs at two digits or more, whatever the page shows. A value of 0 becomes 1.
+        other[name] = dict(figures[name], value=figures[name]["value"] * 1.5 or 1)
         if not pages.check(texts, bindings, other):
             missed.append(f"{figures[name]['file']}: a changed value of '{name}' passes")
         # The pages that are written from the changed value agree with it.
