@@ -211,7 +211,7 @@ TEST_CASE("a material of the first version loads") {
 TEST_CASE("a form of numbers that is neither 8 nor 16 is refused") {
   Material material = test::sample_material();
   material.bits = 9;
-  CHECK(outcome_of([&] { write_material(material); }).says("got 9, need 8 or 16"));
+  CHECK(outcome_of([&] { write_material(material); }).says("got 9 bits, need 8 or 16"));
 }
 
 TEST_CASE("a file cut at any byte is refused") {

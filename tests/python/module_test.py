@@ -365,7 +365,7 @@ class Arguments(unittest.TestCase):
     def test_a_setting_cannot_contradict_the_size_of_an_array(self):
         up = [[0, 0, 1]]
         for name in ("width", "height", "light_count", "view_count"):
-            with self.assertRaisesRegex(TypeError, f"'{name}' is no setting"):
+            with self.assertRaisesRegex(TypeError, f"'{name}' is not a setting"):
                 nook.bake_material(btf=np.zeros((1, 1, 8, 8, 3)), lights=up, views=up, **{name: 4096})
 
     def test_a_wrong_object_is_named(self):
