@@ -211,7 +211,7 @@ void add_bake_character(Command bake) {
              {{"draft", NOOK_BAKE_PRESET_DRAFT},
               {"standard", NOOK_BAKE_PRESET_STANDARD},
               {"production", NOOK_BAKE_PRESET_PRODUCTION}},
-             "time to spend: draft (about 20 s), standard (up to 5 minutes, default) or production (up to "
+             "time to spend: draft (a minute), standard (up to 5 minutes, default) or production (up to "
              "half an hour)");
   add_choice(command, "--poses", o.poses,
              {{"auto", NOOK_BAKE_POSES_AUTO},

@@ -43,7 +43,7 @@ static nook_pose_fault document_check(const stranger* s, uint32_t frame, nook_mo
   nook_pose_check_desc_init(&check);
   check.vertex_count = info.check_vertex_count;
   check.positions = positions;
-  check.place_3x4 = model_to_world; /* NULL where the positions are in the world */
+  check.place_3x4 = model_to_world; /* NULL if positions are in the world; this also checks pose.place_3x4 */
   nook_pose_check_info found = {.struct_size = sizeof found};
   nook_model_check_pose(model, &desc, &check, &found);
   if (found.fault != NOOK_POSE_FAULT_NONE) puts(found.text);
@@ -99,7 +99,7 @@ static void document_frame(nook_scene scene, nook_instance_id hero, const float*
   pose.layout = NOOK_TRANSFORM_COLUMNS_4X4;
   pose.transforms = skinning_matrices;
   pose.transform_count = joint_count;
-  pose.place_3x4 = model_to_world; /* where the character stands */
+  pose.place_3x4 = model_to_world; /* where the character stands: three rows of four numbers */
   nook_scene_set_pose(scene, hero, &pose);
   nook_scene_update(scene);
   /* one float for each vertex, in the file's order */
