@@ -88,7 +88,7 @@ TEST_CASE("each required function that the loader lacks is named") {
       INFO(name);
       CHECK(nook_gl_create(host.handle, &desc, &gl) == NOOK_ERROR_UNSUPPORTED);
       CHECK(gl == nullptr);
-      CHECK(message_has("nook_gl_create: required function \"" + name + "\""));
+      CHECK(message_has("nook_gl_create: get_proc did not return the required function \"" + name + "\""));
     }
   }
 }
