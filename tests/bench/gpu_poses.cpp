@@ -3,7 +3,8 @@
 // nook_scene_set_clips and of nook_scene_set_clip alone.
 // Usage: nook_gpu_poses_bench [instances] [clips]. With "clips" it leaves out the other poses.
 //        nook_gpu_poses_bench table [largest count]. Prints the frame's time and the memory of crowds of 100
-//        instances, of 1,000 and so on.
+//        instances, of 1,000 and so on, up to 10,000 by default. 100,000 need more spheres than fit into a
+//        storage block of 128 MiB, and end with Nook's message.
 #include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_gl_poses.h>
@@ -271,16 +272,28 @@ struct Crowd {
   std::uint32_t bones;
 };
 
+// The time of a frame by each kind of poses.
+struct FrameTimes {
+  double cpu, gpu, clips;
+};
+
+FrameTimes frame_times(Stage& stage, const Crowd& crowd) {
+  FrameTimes seconds{};
+  seconds.cpu = median_seconds(stage.cpu_frame());
+  stage.measure_bodies();
+  seconds.gpu = median_seconds(stage.gpu_frame());
+  seconds.clips = median_seconds(stage.clips_frame(crowd.clips));
+  return seconds;
+}
+
 void compare_poses(const Crowd& crowd, std::uint32_t count) {
   std::printf("neighbours   CPU poses   GPU poses   ratio   clips   ratio\n");
   for (const std::uint32_t neighbours : {0u, 4u}) {
     Stage stage(crowd.context, crowd.model, crowd.bones, count, neighbours);
-    const double cpu = median_seconds(stage.cpu_frame());
-    stage.measure_bodies();
-    const double gpu = median_seconds(stage.gpu_frame()),
-                 played = median_seconds(stage.clips_frame(crowd.clips));
-    std::printf("%10u   %9.3f   %9.3f   %5.3f   %5.3f   %5.3f\n", neighbours, 1e6 * cpu / count,
-                1e6 * gpu / count, gpu / cpu, 1e6 * played / count, played / cpu);
+    const FrameTimes seconds = frame_times(stage, crowd);
+    std::printf("%10u   %9.3f   %9.3f   %5.3f   %5.3f   %5.3f\n", neighbours, 1e6 * seconds.cpu / count,
+                1e6 * seconds.gpu / count, seconds.gpu / seconds.cpu, 1e6 * seconds.clips / count,
+                seconds.clips / seconds.cpu);
   }
 }
 
@@ -299,14 +312,11 @@ void print_table(const Crowd& crowd, std::uint32_t largest) {
   for (std::uint32_t count = 100; count <= largest; count *= 10)
     for (const std::uint32_t neighbours : {0u, 4u}) {
       Stage stage(crowd.context, crowd.model, crowd.bones, count, neighbours);
-      const double cpu = median_seconds(stage.cpu_frame());
-      stage.measure_bodies();
-      const double gpu = median_seconds(stage.gpu_frame()),
-                   played = median_seconds(stage.clips_frame(crowd.clips));
+      const FrameTimes seconds = frame_times(stage, crowd);
       const nook_gl_info gl = stage.gl_info();
-      std::printf("%9u   %10u   %9.3f   %9.3f   %5.3f   %7.0f   %7.0f\n", count, neighbours, 1e3 * cpu,
-                  1e3 * gpu, 1e3 * played, double(stage.scene_info().memory_bytes) / count,
-                  double(gl.buffer_bytes) / count);
+      std::printf("%9u   %10u   %9.3f   %9.3f   %5.3f   %7.0f   %7.0f\n", count, neighbours,
+                  1e3 * seconds.cpu, 1e3 * seconds.gpu, 1e3 * seconds.clips,
+                  double(stage.scene_info().memory_bytes) / count, double(gl.buffer_bytes) / count);
     }
 }
 
@@ -314,7 +324,7 @@ void print_table(const Crowd& crowd, std::uint32_t largest) {
 
 int main(int argc, char** argv) {
   const bool is_table = argc > 1 && std::string_view(argv[1]) == "table";
-  const char* number = is_table ? (argc > 2 ? argv[2] : "100000") : (argc > 1 ? argv[1] : "10000");
+  const char* number = is_table ? (argc > 2 ? argv[2] : "10000") : (argc > 1 ? argv[1] : "10000");
   const auto count = static_cast<std::uint32_t>(std::atoi(number));
   Crowd crowd{};
   nook_context_desc desc;
