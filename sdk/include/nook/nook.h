@@ -5,7 +5,7 @@
  *   any thread       Call it at any time from any thread.
  *   context thread   Call it only on the thread where the OpenGL context of the object is current.
  *   one at a time    Call it from any thread, but never twice at once on the same object.
- * A failed call does not change its outputs or its objects, unless its comment says otherwise. */
+ * A failed call does not change its outputs or its objects, unless the function's comment says otherwise. */
 #ifndef NOOK_NOOK_H
 #define NOOK_NOOK_H
 
@@ -21,12 +21,12 @@ extern "C" {
 #define NOOK_VERSION_PATCH 0
 /* The text after the version numbers: "-rc1" for the first release candidate, "" for a release. */
 #define NOOK_VERSION_SUFFIX "-rc1"
-/* The init functions pass this value, so that the library knows which header version you compiled with. The
- * value is unsigned and contains no cast, so that #if can compare it too. */
+/* The init functions pass this value, so that the library knows the version of the headers that you compiled
+ * with. The value is unsigned and contains no cast, so that #if can compare it too. */
 #define NOOK_VERSION (((NOOK_VERSION_MAJOR + 0u) << 22) | (NOOK_VERSION_MINOR << 12) | NOOK_VERSION_PATCH)
 
 /* If you link the static library, define NOOK_STATIC; the CMake target and the pkg-config file do it for you.
- * The functions then stay inside your program or plug-in. */
+ * Your program or plug-in then does not export Nook's functions. */
 #if defined(NOOK_STATIC)
 #define NOOK_API
 #elif defined(_WIN32)
@@ -55,7 +55,7 @@ enum {
   NOOK_ERROR_BAD_FILE = -4,
   /* The .nook file has a format version that this library cannot read. */
   NOOK_ERROR_FILE_VERSION = -5,
-  /* You compiled with headers whose version this library does not support. */
+  /* This library does not support the version of the headers that you compiled with. */
   NOOK_ERROR_VERSION = -6,
   /* The processor, the OpenGL context or the build of Nook does not support what the call needs. */
   NOOK_ERROR_UNSUPPORTED = -7,
@@ -91,12 +91,11 @@ typedef struct nook_allocator {
 
 enum { NOOK_LOG_INFO = 0, NOOK_LOG_WARNING = 1, NOOK_LOG_ERROR = 2 };
 typedef int32_t nook_log_severity;
-/* Receives a line of the log. `text` is valid only during the call. Nook calls this function on any thread
- * that calls Nook. */
+/* Receives a line of the log, on any thread that calls Nook. `text` is valid only during the call. */
 typedef void (*nook_log_fn)(void* user, nook_log_severity severity, const char* text);
 
 /* A nook_parallel_for_fn runs body(body_user, i) once for every i in [0, count), in any order and on any
- * threads, and returns when all of them are done. Nook never nests these calls. */
+ * threads, and returns when all of them are done. A job never calls the function again. */
 typedef void (*nook_job_fn)(void* body_user, uint32_t index);
 typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn body, void* body_user);
 
@@ -119,7 +118,7 @@ enum {
 };
 typedef int32_t nook_isa;
 
-/* Which form of a method to use: the published one, or Nook's own. */
+/* Selects the published form of a method, or Nook's own form. */
 enum {
   /* Nook's form of the method, which gives better results than the published form. */
   NOOK_FORM_DEFAULT = 0,
@@ -241,7 +240,8 @@ enum {
 /* Fills a descriptor of the given type with defaults. Call the typed functions instead, such as
  * nook_scene_desc_init, which pass sizeof and NOOK_VERSION. The library never writes more than `size` bytes.
  * Any thread. Errors: INVALID_ARGUMENT (desc is NULL, the type is unknown, or size is smaller than in the
- * first release), VERSION (your header has another major version than the library, or a newer minor one). */
+ * first release), VERSION (the major version of your header differs from the library's, or its minor version
+ * is newer). */
 NOOK_API nook_result nook_desc_init(uint32_t type, void* desc, size_t size, uint32_t header_version);
 
 typedef struct nook_context_desc {
@@ -257,7 +257,7 @@ typedef struct nook_context_desc {
   void* parallel_for_user;
   /* The instruction set of all objects that you create from this context; default NOOK_ISA_AUTO. */
   nook_isa isa;
-  /* How many of your units make one metre, such as 100; > 0, default 1. Nook scales default lengths by it. */
+  /* The number of your units in one metre, such as 100 for centimetres; > 0, default 1; scales defaults. */
   float units_per_metre;
 } nook_context_desc;
 static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
@@ -270,7 +270,7 @@ static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
 NOOK_API nook_result nook_context_create(const nook_context_desc* desc, nook_context* out);
 
 /* Releases your reference and sets *context to NULL; `context` and *context may be NULL. Objects keep alive
- * what they need of their context, so you can destroy objects in any order. Any thread. */
+ * the parts of the context that they need, so you can destroy objects in any order. Any thread. */
 NOOK_API void nook_context_destroy(nook_context* context);
 
 #ifdef __cplusplus

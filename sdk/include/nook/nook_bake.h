@@ -1,9 +1,9 @@
 /* The bakers as a library, nook_bake, for offline use. It imports a character and bakes its model, bent
  * normals and clips, and it bakes materials. Each bake is a job: fill a descriptor, start the job, wait for
  * it, and get the bytes of a .nook file. The runtime loads this file. experimental/nook_bake_materials.h
- * bakes synthesis and radiance transfer; experimental/nook_trace.h traces references. The library links
- * Embree, oneTBB and others; the runtime does not need it. The rules of nook.h apply here too, but error
- * messages come from nook_bake_last_message(). */
+ * declares the bakes of texture synthesis and radiance transfer, and experimental/nook_trace.h ray traces
+ * reference values. nook_bake links Embree, oneTBB and other libraries; the runtime does not need nook_bake.
+ * The rules of nook.h apply here too, but error messages come from nook_bake_last_message(). */
 #ifndef NOOK_BAKE_H
 #define NOOK_BAKE_H
 
@@ -43,9 +43,9 @@ typedef struct nook_bake_progress {
   uint64_t done, total;
 } nook_bake_progress;
 
-/* Receives the progress of a job. Return 0 to cancel the job. The job makes these calls on its own threads,
- * one at a time, and none after nook_bake_job_wait or nook_bake_job_destroy has returned. Do not wait for the
- * job here. */
+/* Receives the progress of a job. Return 0 to cancel the job. The job calls this function on its own threads,
+ * one call at a time, and not after nook_bake_job_wait or nook_bake_job_destroy has returned. Do not wait for
+ * the job in this function. */
 typedef int32_t (*nook_bake_progress_fn)(void* user, const nook_bake_progress* progress);
 
 /* Starts a bake and returns at once. The descriptor's `type` selects the kind of bake; if you know the kind,
@@ -66,7 +66,7 @@ NOOK_API nook_result nook_bake_job_cancel(nook_bake_job job);
 NOOK_API nook_result nook_bake_job_wait(nook_bake_job job);
 
 /* Gives the bytes of the .nook file, which are valid until the job is destroyed.
- * Any thread. Errors: INVALID_ARGUMENT (the job is not finished), or the result of a job that failed. */
+ * Any thread. Errors: INVALID_ARGUMENT (the job is not finished), or the error of a failed job. */
 NOOK_API nook_result nook_bake_job_file(nook_bake_job job, const void** bytes, size_t* size);
 
 /* Gives the report, a JSON object with settings, sizes, times and errors, valid until the job is destroyed.
@@ -88,9 +88,9 @@ NOOK_API void nook_bake_job_destroy(nook_bake_job* job);
 typedef struct nook_bake_source_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* UTF-8. The file may refer to other files in its folder, or anywhere if allow_outside_files is 1. */
+  /* UTF-8. The file may use other files in its folder, or anywhere if allow_outside_files is 1. */
   const char* path;
-  /* The contents of the file, which must contain all of its buffers. */
+  /* The contents of the file, with all buffers inside the file. */
   const void* bytes;
   size_t byte_count;
   /* 3 floats for each vertex, in metres; and 3 vertex indices for each triangle. */
@@ -154,7 +154,6 @@ enum {
   NOOK_BAKE_NAME_BONE = 0,
   NOOK_BAKE_NAME_CLIP = 1,
   NOOK_BAKE_NAME_PRIMITIVE = 2,
-  /* The text of a warning of the import. */
   NOOK_BAKE_NAME_WARNING = 3
 };
 typedef int32_t nook_bake_name;
@@ -185,8 +184,8 @@ enum {
 };
 typedef int32_t nook_bake_array;
 
-/* Writes an array. `count` must be the character's number of bones, primitives, vertices or triangles, as
- * fits the array. `stride` is in bytes (0: tightly packed). Any thread. Errors: INVALID_ARGUMENT. */
+/* Writes an array. `count` must be the number of entries: of bones, primitives, vertices or triangles.
+ * `stride` is in bytes (0: tightly packed). Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_character_read(nook_bake_character character, nook_bake_array array, void* out,
                                               uint32_t count, size_t stride);
 
@@ -221,7 +220,7 @@ enum {
   /* Up to 5 minutes and 2 GB of memory. */
   NOOK_BAKE_PRESET_STANDARD = 1,
   /* Up to half an hour. Compared with STANDARD, it uses nearly four times the poses, twice the rays, and up
-   * to 800 key points instead of 500; an update then takes about 20 % longer. */
+   * to 800 key points instead of 500. A scene update then takes about 20 % longer. */
   NOOK_BAKE_PRESET_PRODUCTION = 2
 };
 typedef int32_t nook_bake_preset;
@@ -230,11 +229,11 @@ typedef int32_t nook_bake_preset;
 enum {
   /* Generated whole-body poses, which need no clip. */
   NOOK_BAKE_POSES_AUTO = 0,
-  /* Poses that rotate only one joint, on a grid over +-45 degrees. Do not ship a model from these poses. */
+  /* Poses that rotate only one joint, on a grid over +-45 degrees. Do not ship such a model. */
   NOOK_BAKE_POSES_SINGLE_JOINT = 1,
   /* The character's clips. */
   NOOK_BAKE_POSES_CLIPS = 2,
-  /* The poses of AUTO and CLIPS, and as many variants of the clip poses: mirrored, mixed and blended. */
+  /* The poses of AUTO and CLIPS, and as many variants as clip poses: mirrored, mixed and blended. */
   NOOK_BAKE_POSES_ALL = 3,
   /* Only the poses in extra_poses_3x4. */
   NOOK_BAKE_POSES_EXTRA = 4
@@ -245,14 +244,13 @@ typedef int32_t nook_bake_pose_mode;
  * poses. The runtime has fast paths for 1, 1.5 and 2; other exponents take two to four times as long. */
 #define NOOK_BAKE_GAMMA_LEARNED (-1.0f)
 
-/* With this `saturation`, no shadow is saturated. */
+/* The value of `saturation` that turns saturation off. */
 #define NOOK_BAKE_UNSATURATED (-1.0f)
 
 typedef struct nook_bake_character_desc {
   uint32_t struct_size, type;
   /* NULL, or a nook_bake_character_study_desc of experimental/nook_trace.h. */
   const void* next;
-  /* The character to bake. */
   nook_bake_character character;
   /* Default STANDARD. Each count from `spheres` to `samples_per_clip` that is 0 gets the preset's value. */
   nook_bake_preset preset;
@@ -271,7 +269,6 @@ typedef struct nook_bake_character_desc {
   uint32_t samples_per_clip;
   /* The number of names in clip_names. 0: the bake uses every clip with motion (not a T-pose or A-pose). */
   uint32_t clip_count;
-  /* The number of poses in extra_poses_3x4. */
   uint32_t extra_pose_count;
   /* The clips to use. If a name is unknown, the bake fails, and the message lists the character's clips. */
   const char* const* clip_names;
@@ -282,11 +279,11 @@ typedef struct nook_bake_character_desc {
   /* NOOK_FORM_DEFAULT (default) uses a smooth horizon, a fall-off with the exact power of distance, and a fit
    * by mini-batches. NOOK_FORM_PAPER uses the kernel and the block coordinate descent of Le et al. 2019. */
   nook_form form;
-  /* The exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED. 0 (default) means 1, or 2 with
+  /* The exponent of the shadow norm, 1 to 8, or NOOK_BAKE_GAMMA_LEARNED. Default 0: 1, or 2 with
    * NOOK_FORM_PAPER. */
   float gamma;
-  /* The initial value of c in the shadow of a key point, n / (1 + c n). Here n is the norm over the spheres,
-   * which alone is too dark where many spheres overlap. The fit changes c. The maximum is 64. 0 (default)
+  /* The initial value of c in the shadow of a key point, n / (1 + c n). Here n is the norm over the spheres;
+   * n alone would be too dark where many spheres overlap. The fit changes c. The maximum is 64. 0 (default)
    * means 0.5 with the default form and a gamma of 1, and no saturation otherwise. NOOK_BAKE_UNSATURATED
    * turns saturation off; other values need the default form and a gamma of 1. */
   float saturation;
@@ -299,7 +296,7 @@ static inline nook_result nook_bake_character_desc_init(nook_bake_character_desc
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake a character's model for nook_model_load. In other respects, see nook_bake_start. */
+/* Starts to bake a character's model for nook_model_load; otherwise like nook_bake_start. */
 static inline nook_result nook_bake_start_character(const nook_bake_character_desc* desc,
                                                     nook_bake_job* out) {
   return nook_bake_start(desc, out);
@@ -307,15 +304,15 @@ static inline nook_result nook_bake_start_character(const nook_bake_character_de
 
 /* ---- Bent normals ----
  *
- * Each vertex gets two vectors that describe which directions its body occludes. The bake ray traces them in
- * a few poses of the model (docs/character.md). */
+ * Each vertex gets two vectors that describe which directions its body occludes. The bake computes these
+ * vectors by ray tracing in some poses of the model (docs/character.md). */
 
 typedef struct nook_bake_bent_desc {
   uint32_t struct_size, type;
   const void* next;
   /* The character of the model. */
   nook_bake_character character;
-  /* The bytes of the character's baked model, whose bent normals are replaced. */
+  /* The bytes of the character's baked model. The bake replaces the bent normals of this model. */
   const void* model;
   size_t model_size;
   /* Rays for each vertex and pose, 1 to 65,536; default 128. */
@@ -323,7 +320,7 @@ typedef struct nook_bake_bent_desc {
   /* The number of generated poses, 8 to 100,000; default 48. */
   uint32_t auto_pose_count;
   /* Poses per clip, 1 to 100,000; default 3. The bake uses the clips that the model was fitted to, or every
-   * clip with motion if the model has no recipe. */
+   * clip with motion if the model does not contain the recipe of its bake. */
   uint32_t samples_per_clip;
   uint32_t threads;
   uint64_t seed;
@@ -335,7 +332,7 @@ static inline nook_result nook_bake_bent_desc_init(nook_bake_bent_desc* desc) {
 }
 
 /* Starts to bake bent normals. The result is a model file for nook_model_load: the given model with bent
- * normals. In other respects, see nook_bake_start. */
+ * normals. Otherwise like nook_bake_start. */
 static inline nook_result nook_bake_start_bent(const nook_bake_bent_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
@@ -348,23 +345,21 @@ static inline nook_result nook_bake_start_bent(const nook_bake_bent_desc* desc, 
 typedef struct nook_bake_clips_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* The character of the model. */
+  /* The character, and the bytes of its baked model. */
   nook_bake_character character;
-  /* The bytes of the character's baked model. */
   const void* model;
   size_t model_size;
   /* The clips to bake. If NULL (default), the bake uses every clip with motion (not a T-pose or A-pose). */
   const char* const* clip_names;
-  /* The number of names; default 0. */
   uint32_t clip_count;
   /* Rays for each vertex and frame, 1 to 65,536; default 128. */
   uint32_t rays;
   /* Frames per second, 0.1 to 1000; default 30. All clips together have at most 2^20 frames. */
   float frames_per_second;
   /* The root mean square AO error over vertices and frames that the bake aims for, 1e-4 to 1; default 0.015.
-   * The file gets as many modes as are needed for this error. */
+   * The bake stores as many AO modes (basis vectors) as it needs for this error. */
   float max_error;
-  /* The maximum bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes that do not fit are left out. */
+  /* The maximum bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes beyond it are dropped. */
   float max_bytes;
   /* The maximum number of AO modes, a multiple of 4 from 4 to 256; default 96. */
   uint32_t max_modes;
@@ -379,7 +374,7 @@ static inline nook_result nook_bake_clips_desc_init(nook_bake_clips_desc* desc) 
 }
 
 /* Starts to bake the clips of a character for nook_clips_load. If a clip name is unknown, the message lists
- * the clips. In other respects, see nook_bake_start. */
+ * the clips. Otherwise like nook_bake_start. */
 static inline nook_result nook_bake_start_clips(const nook_bake_clips_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
@@ -395,16 +390,16 @@ enum {
   /* N-mode singular value decomposition: one cluster. */
   NOOK_BAKE_METHOD_N_SVD = 2,
   /* Experimental: a small neural network over features of the texels. It trains for minutes, and is better
-   * than the other methods on flat and glossy materials (docs/materials.md). It compresses the VOTF by K-CTA,
-   * and the rank fields apply only to the VOTF. */
+   * than the other methods on flat and glossy materials (docs/materials.md). It compresses the VOTF
+   * (view-dependent occlusion, see nook_material.h) by K-CTA, and the rank fields apply only to the VOTF. */
   NOOK_BAKE_METHOD_NEURAL = 3
 };
 typedef int32_t nook_bake_method;
 
 /* A material and its compression. Directions are unit vectors in tangent space that point away from the
- * surface, z >= 0. Within each set, all directions must be different. nook_bake_start copies all arrays. The
- * limits are 1024 light and 1024 view directions, 1024 texels along a side, and 6 GiB of floats.
- * docs/materials.md describes the cost of ranks. */
+ * surface, z >= 0. All light directions must be different, and so must all view directions. nook_bake_start
+ * copies all arrays. The limits are 1024 light and 1024 view directions, 1024 texels along a side, and 6 GiB
+ * of floats. docs/materials.md describes the cost of ranks. */
 typedef struct nook_bake_material_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -414,12 +409,13 @@ typedef struct nook_bake_material_desc {
    * linear radiances towards the view, for irradiance 1 on a plane that faces the light. Must be NULL with
    * `meso`. */
   const float* btf;
-  /* view_count x height x width: the share of each texel where the view meets the material, in [0, 1].
-   * Colours are not read where the share is 0. The VOTF's mask is 1 where the share is at least 0.5. If
-   * `coverage` is NULL, the share is 1 everywhere and there is no VOTF. Must be NULL with `meso`. */
+  /* view_count x height x width: the fraction of each texel's area in which this view sees the material, in
+   * [0, 1]. Where it is 0, the bake does not read colours. The VOTF's mask is 1 where the fraction is at
+   * least 0.5. If `coverage` is NULL, the fraction is 1 everywhere and there is no VOTF. Must be NULL with
+   * `meso`. */
   const float* coverage;
   /* 3 floats for each direction. Directions must be at least 1e-3 apart; with `meso`, z must be >= 0.08 (85
-   * degrees from the normal). NULL, only allowed with `meso`, gives a spiral down to max_tilt_degrees. */
+   * degrees from the normal). If NULL (only with `meso`), a spiral up to max_tilt_degrees is used. */
   const float* lights;
   const float* views;
   /* The numbers of light directions and of view directions; default 100 each. */
@@ -439,14 +435,14 @@ typedef struct nook_bake_material_desc {
   /* A value of nook_material_visibility: 0 for no VOTF, 1 for masks, 2 (default) for signed distances. */
   int32_t visibility;
   /* Ranks of the BTF's modes; rank_view is the sum over the clusters. If all are 0 (default), a built-in
-   * structure gets the ranks of docs/materials.md; for measured data, rank_threshold sets them. */
+   * structure gets the ranks of docs/materials.md; for measured data, rank_threshold determines the ranks. */
   uint32_t rank_light, rank_view, rank_x, rank_y;
   /* Ranks of the VOTF's spatial modes. If both are 0 (default), the VOTF has the spatial ranks of the BTF. */
   uint32_t votf_rank_x, votf_rank_y;
   /* The view rank of one cluster, default 4; and the number of clusters. If `clusters` is 0 (default), there
    * are rank_view / cluster_rank_view clusters. */
   uint32_t cluster_rank_view, clusters;
-  /* K, the number of clusters that a view mixes; default 3. */
+  /* K, the number of clusters that each view is mixed from; default 3. */
   uint32_t mixture;
   /* Cells along the side of the resampled view maps of K-CTA; default 64. With 0 there are no view maps, and
    * a decoder mixes the three nearest views, which takes up to three times the work. */
@@ -480,8 +476,8 @@ static inline nook_result nook_bake_material_desc_init(nook_bake_material_desc* 
 }
 
 /* Starts to bake a material for nook_material_load. The call fails if the data has faults, such as ranks that
- * exceed the sizes. In other respects, see nook_bake_start. The report contains the signal-to-error ratio in
- * dB and the share of wrong texels. */
+ * exceed the sizes. Otherwise like nook_bake_start. The report contains the signal-to-error ratio in dB, and
+ * the share of texels whose visibility is wrong. */
 static inline nook_result nook_bake_start_material(const nook_bake_material_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }

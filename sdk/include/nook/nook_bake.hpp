@@ -88,7 +88,7 @@ class Job : public Unique<nook_bake_job, nook_bake_job_destroy> {
   }
   void cancel() const { check(nook_bake_job_cancel(get())); }
   void wait() const { check(nook_bake_job_wait(get())); }
-  // Waits, and returns the bytes of the .nook file.
+  // Waits until the job ends, and returns the bytes of the .nook file.
   std::vector<unsigned char> file() const {
     wait();
     const void* bytes = nullptr;
@@ -97,7 +97,7 @@ class Job : public Unique<nook_bake_job, nook_bake_job_destroy> {
     const auto* const first = static_cast<const unsigned char*>(bytes);
     return {first, first + size};
   }
-  // Waits, and returns the JSON text, which is valid while the job lives.
+  // Waits until the job ends, and returns its report as JSON text. The text is valid while the job lives.
   const char* report() const {
     wait();
     const char* json = nullptr;

@@ -47,7 +47,7 @@ typedef struct nook_model_info {
   uint32_t check_vertex_count;
   /* Bytes of host memory that all instances share, without the overhead of the allocator. */
   uint64_t model_bytes;
-  /* Bytes of host memory per instance that the CPU updates, without links; and per instance with a light. */
+  /* Bytes of host memory of an instance that the CPU updates, without links: without and with a light. */
   uint64_t instance_bytes, lit_instance_bytes;
 } nook_model_info;
 
@@ -57,7 +57,7 @@ NOOK_API nook_result nook_model_describe(nook_model model, nook_model_info* info
 /* Returns the name of a bone, valid while the model lives, or NULL for an index out of range. Any thread. */
 NOOK_API const char* nook_model_bone_name(nook_model model, uint32_t bone);
 
-/* Gives the range of AO values of a primitive; its index must be less than nook_model_info.primitive_count.
+/* Gives the range of AO values of a primitive; `primitive` is less than nook_model_info.primitive_count.
  * Primitives are in the order of the file's nodes, and within a node in the order of its mesh.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_model_describe_primitive(nook_model model, uint32_t primitive, nook_range* out);
@@ -82,10 +82,11 @@ NOOK_API nook_result nook_model_read(nook_model model, nook_model_array array, v
  *
  * A bent normal points in the mean open direction of a vertex; use it for specular occlusion. After `nook
  * bake bent` a model has two vectors for each vertex, NOOK_MODEL_OCCLUDED_DIRECTIONS: the cosine-weighted
- * mean of the directions that the body occludes when AO is 0, and when it is 1. Rotate both as you rotate the
- * normal n, and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex shader, as the function
- * nook_scene_bent_normal in nook_gl_view.glsl does. Bent normals need no update of their own, and are the
- * same on all tiers. Occlusion by other bodies and the ground is treated like self-occlusion. */
+ * mean of the directions that the body occludes, if AO is 0 (`dark`) and if AO is 1 (`open`). Rotate both
+ * vectors as you rotate the normal n, and compute normalize(2/3 n - mix(dark, open, AO)) in the vertex
+ * shader, as the function nook_scene_bent_normal in nook_gl_view.glsl does. Bent normals need no update of
+ * their own, and are the same on all tiers. Occlusion by other bodies and the ground is treated like
+ * self-occlusion. */
 
 /* ---- Scenes ---- */
 
@@ -149,11 +150,11 @@ NOOK_API nook_result nook_scene_link(nook_scene scene, nook_instance_id receiver
 /* Removes a link. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE (an id or the link is unknown). */
 NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_instance_id caster);
 
-/* From the next update on, links each instance to its `k` nearest instances, in addition to the links above.
- * `k` is 0 (off) to 16. `max_distance` is in metres, between the centres of bounding spheres. Each update
- * searches the nearest instances again; if the instances are spread out, the time grows linearly with their
- * number. This call may allocate, so that the update does not have to. One at a time. Errors:
- * INVALID_ARGUMENT, OUT_OF_MEMORY. */
+/* From the next update on, links each instance to its `k` nearest instances, in addition to the links of
+ * nook_scene_link. `k` is 0 (off) to 16. `max_distance` limits the distance between the centres of bounding
+ * spheres, in metres. Each update searches the nearest instances again; if the instances are spread out, the
+ * time grows linearly with their number. This call may allocate, so that the update does not have to. One at
+ * a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
 /* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space. plane_xyzd
@@ -190,24 +191,24 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  *
  * Light that comes from few directions is only occluded by objects in these directions. If you set lobes, a
  * sphere that covers the share f of its receiver's hemisphere takes away f * rho of the light instead of f.
- * For each channel, rho is the mean radiance of the lobes behind the sphere divided by their mean radiance in
+ * For each channel, rho is the lobes' mean radiance behind the sphere divided by the lobes' mean radiance in
  * the receiver's hemisphere. All spheres of a linked instance share one rho; the ground uses the rho of the
- * half-space below its plane. The result is a colour for each vertex. If your shader computes
- * albedo / pi * E * AO, replace AO by this colour; E is the irradiance of the same lobes. Under constant
- * light, the colour is equal to AO. The CPU and the GPU update both compute it; nook_gl.h shows how to use it
- * in a shader. */
+ * half-space below its plane. The result is a colour for each vertex. If your shader computes albedo / pi * E
+ * * AO, replace AO by this colour; E is the irradiance of the same lobes. Under constant light, the colour is
+ * equal to AO. The CPU and the GPU update both compute it; nook_gl.h shows how to use it in a shader. */
 
 /* Sets the light of an instance for the next updates. Pass at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
  * from nook_probe_read_lobes at the instance's position; the call copies them. `lobe_count` 0 or `lobes` NULL
- * removes the light. With 12 lobes an update of an instance takes 0.1 to 0.2 ms longer on one core with AVX2,
- * and by the same time again for each linked instance. The call allocates when an instance gets its first
- * light.
- * One at a time. Errors: INVALID_ARGUMENT (the message names the lobe), INVALID_HANDLE, OUT_OF_MEMORY. */
+ * removes the light. With 12 lobes, an update of an instance takes 0.1 to 0.2 ms longer on one core with
+ * AVX2, and another 0.1 to 0.2 ms for each linked instance. The call allocates when an instance gets its
+ * first light. One at a time. Errors: INVALID_ARGUMENT (the message names the lobe), INVALID_HANDLE,
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_lobe* lobes,
                                           uint32_t lobe_count);
 
-/* Sets the camera position by which updates choose levels of detail, in world space and metres. Before the
- * first call, and with NULL, every instance has full detail. One at a time. Errors: INVALID_ARGUMENT. */
+/* Sets the camera position, in world space and metres. Updates choose levels of detail by the distance to it.
+ * Before the first call, or with NULL, all instances have full detail. One at a time. Errors:
+ * INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
 /* Evaluates the shadows of all instances at their key points on the CPU. The call uses the context's
@@ -233,8 +234,8 @@ typedef struct nook_scene_info {
   uint32_t struct_size;
   /* The number of instances, and of the instances that the last update evaluated. */
   uint32_t instances, instances_updated;
-  /* The last update evaluated this many receiver-caster pairs, and skipped this many casters, occluders and
-   * grounds. */
+  /* The number of receiver-caster pairs that the last update evaluated, and the number of casters, occluders
+   * and grounds that it skipped. */
   uint32_t links, links_culled;
   /* The number of instances with a bone that Nook corrected because it was sheared or scaled unevenly. */
   uint32_t uneven_instances;
@@ -255,16 +256,16 @@ NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info
  * applied. Do not convert them yourself: in many files, a node above the skeleton scales by 0.01 or rotates
  * by 90 degrees. If AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
 
-/* Which matrices you pass. They transform to world space, or, if you set place_3x4, to the space that
- * place_3x4 transforms. */
+/* The kind of matrices that you pass. Each kind transforms from another space. All kinds transform to world
+ * space, or, if you set place_3x4, to the space that place_3x4 maps to world space. */
 enum {
-  /* From rest space: Nook's own matrices, as nook_model_convert_pose gives them, one for each bone. Models
+  /* From rest space: Nook's own matrices, as nook_model_convert_pose writes them, one for each bone. Models
    * without bind data accept only this kind. */
   NOOK_POSE_REST_TO_WORLD = 0,
-  /* From the joint's own space: the world matrices of joints, bones or nodes. One for each bone. */
+  /* From the joint's own space: the world matrices of joints, bones or nodes, one for each bone. */
   NOOK_POSE_JOINT_TO_WORLD = 1,
   /* From the space of the mesh: joint matrix times inverse bind matrix, as in your vertex shader. Pass one
-     for each joint of the skin `skin` in the order of the file. */
+   * for each joint of the skin `skin` in the order of the file. */
   NOOK_POSE_SKINNING = 2
 };
 typedef int32_t nook_pose_kind;
@@ -273,7 +274,7 @@ typedef int32_t nook_pose_kind;
 enum {
   /* 12 floats: three rows of rotation and scale | translation. */
   NOOK_TRANSFORM_ROWS_3X4 = 0,
-  /* 16 floats: four rows, the last one 0 0 0 1, for column vectors: Ogre::Matrix4. */
+  /* 16 floats: four rows, the last one 0 0 0 1, for column vectors, such as Ogre::Matrix4. */
   NOOK_TRANSFORM_ROWS_4X4 = 1,
   /* 16 floats: four columns, the last one the translation and 1: glTF, glm, OpenGL. Also matrices of
    * libraries with row vectors (DirectXMath, osg::Matrixf), as they are in memory. */
@@ -421,7 +422,7 @@ enum {
   NOOK_POSE_FAULT_TRANSPOSED = 1,
   /* Skinning matrices were given as rest-to-world matrices: pass NOOK_POSE_SKINNING. */
   NOOK_POSE_FAULT_NO_BIND = 2,
-  /* The transforms are not of the kind that nook_pose_desc.kind says. */
+  /* nook_pose_desc.kind does not name the kind of the transforms. */
   NOOK_POSE_FAULT_KIND = 3,
   /* The skinning matrices belong to another skin. */
   NOOK_POSE_FAULT_SKIN = 4,
@@ -459,7 +460,6 @@ static inline nook_result nook_pose_check_desc_init(nook_pose_check_desc* desc) 
 
 typedef struct nook_pose_check_info {
   uint32_t struct_size;
-  /* The likely fault. */
   nook_pose_fault fault;
   /* The largest and the root mean square distance between your vertices and the model's, as shares of the
    * model's bounding radius times the scale of `place_3x4`. */
@@ -501,7 +501,6 @@ typedef struct nook_vertex_match_desc {
    * two sides of a card, which share their positions but have different AO. */
   const float* normals;
   size_t normal_stride;
-  /* The number of your vertices. */
   uint32_t vertex_count;
   /* The primitive of the file that the vertices come from, default NOOK_ALL_PRIMITIVES. */
   int32_t primitive;
@@ -510,9 +509,9 @@ typedef struct nook_vertex_match_desc {
   /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default)
    * means 1e-4, which is enough for 16-bit positions. */
   float tolerance;
-  /* NULL (default), or `influences` joints and weights for each vertex (1 to 8, default 4); strides are in
-   * bytes. They distinguish vertices where meshes meet. Joint indices refer to the joints of the skin `skin`
-   * (default 0), or to bones if the model has no skins. */
+  /* NULL (default), or joints and weights, `influences` (1 to 8, default 4) for each vertex; strides are in
+   * bytes. Weights distinguish vertices where meshes meet. Joint indices refer to the joints of the skin
+   * `skin` (default 0), or to bones if the model has no skins. */
   const uint16_t* joints;
   size_t joint_stride;
   const float* weights;
@@ -525,7 +524,7 @@ static inline nook_result nook_vertex_match_desc_init(nook_vertex_match_desc* de
 
 typedef struct nook_vertex_match_info {
   uint32_t struct_size;
-  /* How many of your vertices got NOOK_NO_VERTEX; and how many fit several vertices with different AO. */
+  /* The number of your vertices without a match, and of those that match vertices with different AO. */
   uint32_t unmatched, ambiguous;
   /* The result as text, with the first vertex of each kind and what to do; empty if every match is unique. */
   char text[320];
@@ -539,20 +538,20 @@ NOOK_API nook_result nook_model_match_vertices(nook_model model, const nook_vert
                                                uint32_t* vertices, nook_vertex_match_info* info);
 
 /* Creates a model whose vertex i is vertex vertices[i] of the given model; everything else is copied. Each
- * primitive of the new model is a range of vertices whose meshes have the same space. For most files, there
- * is only one primitive. On failure *out is NULL.
+ * primitive of the new model is a range of vertices whose meshes have the same coordinate space. For most
+ * files, there is only one primitive. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT (also for NOOK_NO_VERTEX; the message names it), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_remap(nook_model model, const uint32_t* vertices, uint32_t count,
                                       nook_model* out);
 
 /* ---- Capsules: what darkens the world ---- */
 
-/* A model has at most MAX_CASTERS capsules. Nook divides a light's cone into CONE_PARTS parts
- * (nook_world.h). */
+/* A model has at most NOOK_WORLD_MAX_CASTERS capsules. nook_world.h explains the parts of a light's cone. */
 #define NOOK_WORLD_MAX_CASTERS 64
 #define NOOK_WORLD_CONE_PARTS 16
 
-/* The points around the segment from `a` to `b`, within a radius that changes linearly. In metres. */
+/* All points whose distance to the segment from `a` to `b` is at most a radius, which changes linearly along
+ * the segment from radius_a to radius_b. In metres. */
 typedef struct nook_capsule {
   float a[3];
   float radius_a;

@@ -11,8 +11,8 @@
  * nook_model_describe_primitive. "Texture buffer" means a GL_TEXTURE_BUFFER; on OpenGL ES and WebGL it means
  * a GL_TEXTURE_2D, and Nook's GLSL declares its sampler accordingly. Before each call, end or pause transform
  * feedback, and end conditional rendering and queries that count primitives or samples. Calls that allocate
- * log the OpenGL errors of your earlier calls; other calls neither read nor clear them. Functions make OpenGL
- * calls unless their comment says otherwise. */
+ * log the OpenGL errors of your earlier calls; other calls neither read nor clear OpenGL errors. Functions
+ * make OpenGL calls unless their comment says otherwise. */
 #ifndef NOOK_GL_H
 #define NOOK_GL_H
 
@@ -30,8 +30,8 @@ typedef void* (*nook_gl_proc_fn)(void* user, const char* name);
 
 /* The tiers: how Nook evaluates characters. Tiers 43 and ES31 evaluate spheres, shadows and vertices in
  * compute shaders. Tiers 33 and ES30 evaluate shadows at key points on the CPU, through the context's
- * parallel_for, and vertices by transform feedback. They are faster on software renderers such as Mesa's
- * llvmpipe. As max_tier, 33 and ES30 mean the same, and so do 43 and ES31. */
+ * parallel_for, and vertices by transform feedback. Tiers 33 and ES30 are faster on software renderers such
+ * as Mesa's llvmpipe. As max_tier, 33 and ES30 mean the same, and so do 43 and ES31. */
 enum {
   NOOK_GL_TIER_BEST = 0,
   NOOK_GL_TIER_33 = 33,
@@ -59,15 +59,16 @@ typedef int32_t nook_gl_state_mode;
 typedef struct nook_gl_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Required. The first argument of each call is get_proc_user. */
+  /* Required. Nook passes get_proc_user as its first argument. */
   nook_gl_proc_fn get_proc;
   void* get_proc_user;
   /* The highest tier to use; default NOOK_GL_TIER_BEST. state_mode is NOOK_GL_STATE_PRESERVE by default. */
   nook_gl_tier max_tier;
   nook_gl_state_mode state_mode;
   /* 1, for development: each call fails with NOOK_ERROR_GL unless the OpenGL context of nook_gl_create is
-   * current, and frames without a surface are logged. Both checks query OpenGL. 0 (default): in a wrong
-   * context, a call may return NOOK_OK and do nothing, or change your objects. */
+   * current, and a frame in which no pixel shows a surface is logged. Both checks query OpenGL. 0 (default):
+   * if a wrong context is current, a call may return NOOK_OK and do nothing, or change your OpenGL
+   * objects. */
   int32_t debug;
 } nook_gl_desc;
 static inline nook_result nook_gl_desc_init(nook_gl_desc* desc) {
@@ -92,14 +93,14 @@ NOOK_API nook_result nook_gl_context_lost(nook_gl gl);
 typedef struct nook_gl_info {
   uint32_t struct_size;
   nook_gl_tier tier;
-  /* GL_VERSION and GL_RENDERER of the OpenGL context; both are valid while gl lives. */
+  /* GL_VERSION and GL_RENDERER of the OpenGL context; both are valid while `gl` lives. */
   const char* version;
   const char* renderer;
-  /* The OpenGL buffer memory that gl holds now, and the part of it that holds AO. */
+  /* The bytes of all OpenGL buffers of `gl` now, and the bytes of those that hold AO. */
   uint64_t buffer_bytes, ao_bytes;
 } nook_gl_info;
 
-/* Describes gl, without an OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
+/* Describes `gl`, without an OpenGL call. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_describe(nook_gl gl, nook_gl_info* info);
 
 /* Creates the OpenGL objects that the scene's instances need, so that the next nook_gl_scene_update allocates
@@ -137,11 +138,12 @@ typedef struct nook_gl_view {
   const char* glsl;
 } nook_gl_view;
 
-/* Gives the view of an instance for NOOK_CHANNEL_AO, or for NOOK_CHANNEL_DIRECTIONAL_AO if the instance had a
- * light in the last nook_gl_scene_update. Buffer, offset and texture stay the same until the instance, the
- * scene or gl is destroyed, you call nook_gl_scene_release, or nook_scene_set_model gives the instance
- * another model. AO is 1 before the first update. After an update you need no barrier to read the values as
- * vertex attributes, texture buffers, shader storage or by buffer reads. This function makes no OpenGL call.
+/* Tells in which buffer the values of an instance are: for NOOK_CHANNEL_AO, or for
+ * NOOK_CHANNEL_DIRECTIONAL_AO if the instance had a light in the last nook_gl_scene_update. Buffer, offset
+ * and texture stay the same until you remove the instance, destroy the scene or `gl`, or call
+ * nook_gl_scene_release or nook_scene_set_model. AO is 1 before the first update. After an update you need no
+ * barrier to read the values as vertex attributes, texture buffers, shader storage or by buffer reads. This
+ * function makes no OpenGL call.
  * Context thread. Errors: INVALID_ARGUMENT (also for NOOK_CHANNEL_BENT_NORMAL, which your vertex shader
  * computes), INVALID_HANDLE (the id is unknown, the instance is not prepared yet, or it had no light), GL. */
 NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance,
@@ -167,21 +169,21 @@ typedef struct nook_gl_ao_target {
   uint32_t texture;
   /* The offset of the first value. In a buffer: bytes, a multiple of 4; in a texture: texels. */
   uint64_t offset;
-  /* The next instance's values follow at this distance, in the same units. Only read if count > 1. */
+  /* The distance between the first values of two instances, in the same units. Only read if count > 1. */
   uint64_t instance_stride;
   /* Bytes between the starts of two values in a buffer, a multiple of 4, for AO interleaved with other vertex
-   * attributes; each value then uses 4 whole bytes. Needs compute shaders. 0: tightly packed; the bytes of an
+   * attributes; each value then occupies 4 bytes. Needs compute shaders. 0: tightly packed; the bytes of an
    * instance are padded to a multiple of 4, and the padding is overwritten. */
   uint32_t stride;
-  /* In texels. Required on OpenGL ES 3.0 and WebGL 2. Elsewhere, if 0, Nook queries it from OpenGL. */
+  /* The width of `texture`. Required on OpenGL ES 3.0 and WebGL 2; elsewhere, 0 lets Nook query it. */
   uint32_t texture_width;
 } nook_gl_ao_target;
 
 /* Copies the AO of the last nook_gl_scene_update to a buffer or texture of yours on the GPU. The values of
- * `count` instances follow one another. You need no barrier before vertex fetches, texture fetches and buffer
- * reads. The call does not wait for the GPU. The first call with a format creates a program.
- * Context thread. Errors: INVALID_ARGUMENT (also if the target is too small), INVALID_HANDLE (an id is
- * unknown, or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
+ * the `count` instances are written in the order of `instances`. You need no barrier before vertex fetches,
+ * texture fetches and buffer reads. The call does not wait for the GPU. The first call with a format creates
+ * a program. Context thread. Errors: INVALID_ARGUMENT (also if the target is too small), INVALID_HANDLE (an
+ * id is unknown, or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
 NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
                                          uint32_t count, const nook_gl_ao_target* target);
 
@@ -199,20 +201,19 @@ NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const noo
  * text and the text of a probe upload, in any order. The values agree with nook_scene_read within 4e-3; the
  * difference comes from two approximate square roots per term. */
 
-/* Deletes the OpenGL objects that `gl` holds for a scene, but not the scene. The views of the scene's
+/* Deletes the OpenGL objects that `gl` holds for a scene, but not the scene. All nook_gl_view of the scene's
  * instances become invalid. Without this call, the objects of a destroyed scene are deleted by the next
  * update or by nook_gl_destroy. Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
 
 /* ---- A frame of the host ----
  *
- * nook_gl_frame_desc describes the images and the camera of a frame, for nook_nnao_render and
- * nook_world_render. */
+ * nook_gl_frame_desc describes the images and the camera, for nook_nnao_render and nook_world_render. */
 
 /* The contents of a depth texture. */
 enum {
-  /* The depth that OpenGL wrote under `projection` and glDepthRange(0, 1): a texture of a depth format, or a
-   * copy of it in the red channel of a 32-bit float texture. */
+  /* The depth that OpenGL wrote with the matrix `projection` and the depth range [0, 1] of glDepthRange. Pass
+   * a texture of a depth format, or a copy in the red channel of a 32-bit float texture. */
   NOOK_DEPTH_HARDWARE = 0,
   /* -z of view space in metres, in the red channel of a float texture. */
   NOOK_DEPTH_LINEAR = 1,
@@ -236,13 +237,13 @@ enum {
   NOOK_GBUFFER_AO_NONE = 0,
   /* min(s, c): occlusion that both s and c contain is applied only once. */
   NOOK_GBUFFER_AO_MIN = 1,
-  /* min(s, c) / c: for an image that is already multiplied by c, so that the product is min(s, c). */
+  /* min(s, c) / c. Multiply it into an image that already contains the factor c; the product is min(s, c). */
   NOOK_GBUFFER_AO_REMAINDER = 2,
   /* (1 - w) s + w c: where w is 1, the result is the G-buffer AO alone. */
   NOOK_GBUFFER_AO_REPLACE = 3,
   /* (1 - w) s + w c. In addition, surfaces with w > 0.5 do not occlude in the screen pass. Use it for
-   * characters that darken the world by their capsules in nook_world_render, so that they darken it only
-   * once. */
+   * characters that darken the world by their capsules in nook_world_render, so that they darken the world
+   * only once. */
   NOOK_GBUFFER_AO_EXCLUDE = 4
 };
 typedef int32_t nook_gbuffer_ao;
@@ -268,9 +269,10 @@ enum {
 };
 typedef int32_t nook_blend;
 
-/* One frame. Textures are 2D and single-sampled, unless you created the pass for views or samples. The pass
- * reads width x height texels of level 0, through its own samplers. The pass remembers the last four
- * different sets of textures. It queries OpenGL for each new set, and once more when the set returns. */
+/* One frame. Textures are 2D and single-sampled, unless you created the pass with `views` or `depth_samples`.
+ * The pass reads width x height texels of level 0, through its own samplers. The pass remembers the last four
+ * sets of textures. It queries OpenGL when it sees a set for the first time, and once more when you use the
+ * set again after another set. */
 typedef struct nook_gl_frame_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -286,8 +288,7 @@ typedef struct nook_gl_frame_desc {
    * (default): no limit. Pixels are also sky if their depth is not finite, is <= 0 in a perspective
    * projection, or is hardware depth at the far plane. */
   float sky_depth;
-  /* For logarithmic depth: C in 1 / metres, > 0, default 1; n in metres, >= 0, default 0; f in metres, > n,
-   * required. */
+  /* For logarithmic depth: C in 1/metres, > 0, default 1; n in metres, >= 0, default 0; f in metres, > n. */
   float depth_log_scale, depth_log_near, depth_log_far;
   /* A texture of normals. 0 (default): the pass reconstructs normals from depth. */
   uint32_t normal_texture;
@@ -300,10 +301,10 @@ typedef struct nook_gl_frame_desc {
   /* Column-major; required. It may be off-centre, orthographic, reversed-depth, infinite or oblique. */
   float projection[16];
   /* From world space to view space, column-major: a rotation and a translation. The identity by default. The
-   * world pass needs it. With max_history_frames, the screen pass uses it to follow surfaces into the next
+   * world pass needs it. With max_history_frames, the screen pass uses it to find each surface in the last
    * frame; set nook_nnao_frame_desc.reset after a cut. */
   float view[16];
-  /* Only hardware depth uses it. Default NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE. */
+  /* Only used for hardware depth. Default NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE. */
   nook_clip_space clip_space;
   /* Default NOOK_GBUFFER_AO_NONE. All other values require gbuffer_ao_texture. */
   nook_gbuffer_ao gbuffer_ao;
@@ -348,16 +349,15 @@ typedef struct nook_gl_upload_info {
   /* The number of textures, at most 16. A draw needs as many texture units. */
   uint32_t texture_count;
   nook_gl_upload_texture textures[16];
-  /* The memory of all textures. On OpenGL ES, a 2D texture with 2048 texels per row replaces a texture
-   * buffer. */
+  /* The memory of all textures. On OpenGL ES, a 2D texture of 2048 texels per row replaces a buffer. */
   uint64_t bytes;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, valid until you update or destroy the
    * upload. All names in Nook's GLSL begin with nook_, Nook or NOOK_. */
   const char* glsl;
   /* The name of a uniform for constants, or NULL: nook_grid_frame for a grid, nook_clip_vec4s for clips. */
   const char* constant;
-  /* The values: constant_vec4s * 4 floats for glUniform4fv, or an int for glUniform1i if constant_vec4s is
-   * 0. */
+  /* The values: constant_vec4s * 4 floats for glUniform4fv; if constant_vec4s is 0, an int for
+   * glUniform1i. */
   float constant_values[16];
   uint32_t constant_vec4s;
   /* 1: the grid has walls, and each surface uses only the probes on its side of a wall. */
@@ -370,9 +370,9 @@ NOOK_API nook_result nook_gl_upload_describe(nook_gl_upload upload, nook_gl_uplo
 
 /* Prepares a draw with `program`. Binds the textures to the texture units from `first_unit` on, without
  * sampler objects, and sets the program's sampler uniforms and constants. In every nook_gl_state_mode, the
- * program stays in use and the textures stay bound; state_mode applies only to the active texture unit. A
- * sampler that your shader does not use may be missing. If all are missing, the call fails and changes
- * nothing; the message names what the program was compiled for.
+ * program stays in use and the textures stay bound; state_mode applies only to the active texture unit. The
+ * program may lack samplers that your shader does not use. If it lacks all samplers of the upload, the call
+ * fails and changes nothing; the message names the upload that the program was compiled for.
  * Context thread. Errors: INVALID_ARGUMENT (program is not a linked program, was compiled with the GLSL of
  * another kind of upload, or first_unit + texture_count exceeds GL_MAX_COMBINED_TEXTURE_IMAGE_UNITS), GL. */
 NOOK_API nook_result nook_gl_upload_bind(nook_gl_upload upload, uint32_t program, uint32_t first_unit);
@@ -424,8 +424,9 @@ NOOK_API nook_result nook_gl_upload_probe(nook_gl gl, nook_probe probe, nook_gl_
                                           nook_gl_upload* out);
 
 /* Replaces the probe or grid of an upload, in the same form. The textures keep their names. Draws that you
- * issued before still read the old values. The upload's constant changes if the box of the grid changes. The
- * GLSL changes if only one of the old and the new grid has walls. On failure the upload keeps the old probe.
+ * issued before the call still read the old values. The upload's constant changes if the box of the grid
+ * changes. The GLSL changes if only one of the old and the new grid has walls. On failure the upload keeps
+ * the old probe.
  * Context thread. Errors: those of nook_gl_upload_probe, INVALID_ARGUMENT (the upload has no probe). */
 NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe probe);
 

@@ -50,7 +50,7 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     return memory;
   }
   void prepare(const Scene& scene) { check(nook_gl_scene_prepare(get(), scene.get())); }
-  // Call it instead of scene.update().
+  // Evaluates the scene on the GPU. Call it instead of scene.update().
   void update(Scene& scene) { check(nook_gl_scene_update(get(), scene.get())); }
   nook_gl_view view(const Scene& scene, nook_instance_id id, nook_channel channel = NOOK_CHANNEL_AO) const {
     nook_gl_view view{};
@@ -58,14 +58,14 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     check(nook_gl_scene_view(get(), scene.get(), id, channel, &view));
     return view;
   }
-  // Copies AO to a buffer or texture of yours on the GPU. This function sets struct_size of the target.
+  // Copies AO to a buffer or texture of yours on the GPU. This function sets target.struct_size.
   void write_ao(const Scene& scene, const std::vector<nook_instance_id>& ids,
                 nook_gl_ao_target target) const {
     target.struct_size = sizeof target;
     check(
         nook_gl_scene_write(get(), scene.get(), ids.data(), static_cast<std::uint32_t>(ids.size()), &target));
   }
-  // Waits for the GPU.
+  // Copies the values of an instance to `out`. Waits for the GPU.
   void read(const Scene& scene, nook_instance_id id, nook_channel channel, float* out,
             std::uint32_t count) const {
     check(nook_gl_scene_read(get(), scene.get(), id, channel, out, count));
@@ -80,8 +80,8 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
   }
 };
 
-// A probe, a grid, a material or clips in textures, with the GLSL that reads them. Call every function and
-// the destructor on the context thread, as nook_gl.h documents.
+// Holds a probe, a grid, a material or clips in textures, and the GLSL that reads the textures. Call every
+// function and the destructor on the context thread, as nook_gl.h documents.
 class Upload : public Unique<nook_gl_upload, nook_gl_upload_destroy> {
  public:
   Upload() = default;
@@ -92,7 +92,7 @@ class Upload : public Unique<nook_gl_upload, nook_gl_upload_destroy> {
 
   Upload(const Gl& gl, const Clips& clips) : Unique(create(gl, clips)) {}
 
-  // Replaces the probe of this upload, which must hold one.
+  // Replaces the probe. The upload must hold a probe or a grid.
   void update(nook_probe probe) { check(nook_gl_update_probe(get(), probe)); }
   nook_gl_upload_info info() const {
     nook_gl_upload_info info{};

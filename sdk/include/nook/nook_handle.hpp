@@ -1,5 +1,5 @@
 // The common part of the C++17 wrappers: failed calls throw nook::Error, and handles destroy their objects.
-// The wrappers are header-only, so that no C++ type crosses the library's boundary. The C headers document
+// The wrappers are header-only, so no C++ type is passed into or out of the library. The C headers document
 // every function and its thread contract.
 #ifndef NOOK_HANDLE_HPP
 #define NOOK_HANDLE_HPP
@@ -15,12 +15,12 @@
 #include "nook.h"
 
 namespace nook {
-// The inline namespace keeps these names apart from the library's own names at link time. Callers write
+// The inline namespace avoids conflicts with the library's own names at link time. You still write
 // nook::Scene.
 inline namespace wrapper {
 
-// A failed call. what() returns the text of nook_last_message(), or of the same function of the library that
-// failed.
+// A failed call. what() returns the text of nook_last_message(), or of nook_bake_last_message() if a function
+// of the bakers failed.
 class Error : public std::runtime_error {
  public:
   explicit Error(nook_result result) : Error(result, nook_last_message()) {}

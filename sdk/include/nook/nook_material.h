@@ -24,9 +24,9 @@ extern "C" {
 enum {
   /* There is no VOTF; the surface is visible everywhere. */
   NOOK_MATERIAL_VISIBILITY_NONE = 0,
-  /* A mask: 1 where the view meets the meso-structure, 0 where it passes through. */
+  /* A mask: 1 where the view ray hits the meso-structure, 0 where the ray passes through. */
   NOOK_MATERIAL_VISIBILITY_MASK = 1,
-  /* The signed distance to the boundary of the mask, positive where the view meets the meso-structure. */
+  /* The signed distance to the boundary of the mask, positive where the view ray hits the meso-structure. */
   NOOK_MATERIAL_VISIBILITY_DISTANCE = 2
 };
 typedef int32_t nook_material_visibility;
@@ -39,8 +39,8 @@ enum {
   /* Signed RGTC (BC5): blocks of 4 x 4 texels, which take half the bytes. Needs OpenGL, or OpenGL ES with
    * GL_EXT_texture_compression_rgtc. In WebGL, both sides of the tile must be multiples of 4 texels. */
   NOOK_MATERIAL_BLOCKS_RGTC = 1,
-  /* Signed EAC (RG11). Needs OpenGL ES, OpenGL 4.3 or GL_ARB_ES3_compatibility. Most desktop drivers expand
-   * it. */
+  /* Signed EAC (RG11). Needs OpenGL ES, OpenGL 4.3 or GL_ARB_ES3_compatibility. Most desktop drivers store it
+   * uncompressed. */
   NOOK_MATERIAL_BLOCKS_EAC = 2
 };
 typedef int32_t nook_material_blocks;
@@ -61,14 +61,14 @@ static inline nook_result nook_material_desc_init(nook_material_desc* desc) {
   return nook_desc_init(NOOK_DESC_MATERIAL, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Loads a material from the bytes of a .nook file, which you may free afterwards. With `desc` NULL, uses the
- * defaults. The call expands the material, through the context's parallel_for if you set one. It validates
- * all values, so you can load files that you do not trust. On failure *out is NULL. With blocks, textures
- * take about half the memory, and nook_material_evaluate computes from the same blocks as the shader. Some
- * drivers (llvmpipe) interpolate RGTC with byte weights, so decoded values can differ by 4/127. If the file
- * has half floats, you cannot use blocks together with radiance transfer that was baked for this file.
- * Any thread. Errors: INVALID_ARGUMENT (also if the blocks of a tensor take more than 1 GiB, which can happen
- * with very small tiles), BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
+/* Loads a material from the bytes of a .nook file, which you may free afterwards. If `desc` is NULL, the call
+ * uses the defaults. The call expands the material, through the context's parallel_for if you set one. It
+ * validates all values, so you can load files that you do not trust. On failure *out is NULL. With blocks,
+ * textures take about half the memory, and nook_material_evaluate computes from the same blocks as the
+ * shader. Some drivers (llvmpipe) interpolate RGTC with byte weights, so decoded values can differ by 4/127.
+ * If the file has half floats, you cannot use blocks together with radiance transfer that was baked for this
+ * file. Any thread. Errors: INVALID_ARGUMENT (also if the blocks of a tensor take more than 1 GiB, which can
+ * happen with very small tiles), BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_material_load(nook_context context, const void* bytes, size_t size,
                                         const nook_material_desc* desc, nook_material* out);
 
@@ -136,8 +136,8 @@ typedef struct nook_material_value {
 /* The largest number of fetches along the longer side of a pixel. */
 enum { NOOK_MATERIAL_MAX_FETCHES = 8 };
 
-/* A pixel footprint of any shape. To evaluate one mipmap level, pass 1 fetch and an isotropic footprint with
- * dx[1] = dy[0] = 0:
+/* A pixel footprint of any shape. To evaluate exactly one mipmap level, pass 1 fetch and an isotropic
+ * footprint with dx[1] = dy[0] = 0:
  *     pixel.dx[0] = exp2f(level) / (float)info.width;  pixel.dy[1] = exp2f(level) / (float)info.height; */
 typedef struct nook_material_pixel {
   /* Texture coordinates of the pixel centre; 0 to 1 is one tile, and the tile repeats. */
@@ -156,8 +156,8 @@ typedef struct nook_material_pixel {
  * The GLSL agrees within 1/255 for radiances up to 1 if the driver filters with float weights (for RGTC see
  * nook_material_load). GPUs filter with about 8-bit weights, which has the effect of a shift by 1/512 of a
  * texel. In seven measured files, for views beyond 60 degrees, two fetches had at most 1/5 of the squared
- * error of one fetch, or 2/5 with neural materials. If a pixel is longer than `fetches` times its width, it
- * is blurred across its width. Any thread. Errors: INVALID_ARGUMENT (also if a number of a pixel is not
+ * error of one fetch, or 2/5 with neural materials. A footprint that is longer than `fetches` times its width
+ * is blurred across its width too. Any thread. Errors: INVALID_ARGUMENT (also if a number of a pixel is not
  * finite, or `fetches` is out of range). */
 NOOK_API nook_result nook_material_evaluate(nook_material material, const nook_material_pixel* pixels,
                                             uint32_t count, uint32_t fetches, nook_material_value* values);

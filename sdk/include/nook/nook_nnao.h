@@ -64,11 +64,10 @@ typedef struct nook_nnao_desc {
   int32_t bent_normals;
   /* The bytes of a .nook file from `nook train nnao`, in either form. Default NULL: the embedded network. */
   const void* network;
-  /* The size of network in bytes. */
   size_t network_size;
   /* 2 to 64: the pass averages AO over at most this many frames, so it flickers less. Start with 4 to 8; with
-   * more frames, AO reacts more slowly to changes. The pass follows surfaces by nook_gl_frame_desc.view and
-   * motion_vectors. 0 (default): no averaging. Not with bent_normals. */
+   * more frames, AO reacts more slowly to changes. The pass reprojects the last frame by
+   * nook_gl_frame_desc.view and motion_vectors. 0 (default): no averaging. Not with bent_normals. */
   int32_t max_history_frames;
   /* 1 to 16: the depth texture is GL_TEXTURE_2D_MULTISAMPLE with this many samples (OpenGL 3.3 or OpenGL ES
    * 3.1). For passes with views, it is GL_TEXTURE_2D_MULTISAMPLE_ARRAY (OpenGL 3.3 or OpenGL ES 3.2). Each
@@ -131,13 +130,13 @@ typedef struct nook_nnao_frame_desc {
   uint32_t motion_vectors;
   /* Default (1, 1), for motion in pixels. For motion in texture coordinates, set (width, height). */
   float motion_vector_scale[2];
-  /* Set 1 at a cut, so that the pass ignores earlier frames. It also ignores them if the size of the viewport
-   * or the kind of projection changes. */
+  /* Set 1 at a cut, so that the pass ignores earlier frames. The pass also ignores earlier frames if the size
+   * of the viewport or the kind of projection changes. */
   int32_t reset;
   /* The minimum radius in pixels, default 12; 0: no minimum. Far away, the pass enlarges the radius to this
    * minimum and weakens the AO in return, which gives smooth AO instead of flicker. */
   float min_radius_px;
-  /* Distances in metres from the camera: AO fades to 1 from fade_begin to fade_end. Default 0: no fading. */
+  /* Distances from the camera in metres. From fade_begin to fade_end, AO fades to 1. Default 0: no fade. */
   float fade_begin, fade_end;
 } nook_nnao_frame_desc;
 static inline nook_result nook_nnao_frame_desc_init(nook_nnao_frame_desc* desc) {
@@ -157,7 +156,7 @@ typedef struct nook_nnao_info {
    * (x, y) in red, or in alpha with bent normals. AO is 1 everywhere before the first frame. A frame writes
    * only its viewport. After a frame with another target, the contents of this texture are undefined. */
   uint32_t texture;
-  /* The memory of all textures of the pass. */
+  /* The bytes of all textures of the pass. */
   uint64_t texture_bytes;
   /* The settings in use, with the preset's value where the descriptor had -1. */
   int32_t taps, half_resolution, blur;
@@ -165,13 +164,12 @@ typedef struct nook_nnao_info {
   int32_t horizon_form;
   /* 1: a compute shader evaluates the network; 0: a fragment shader evaluates it. */
   int32_t compute;
-  /* 1: the texture has bent normals. */
   int32_t bent_normals;
   /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, for your lighting. Directions are unit
    * vectors in one space, roughness is perceptual (the GGX width is its square):
    *     vec3 nook_nnao_bent_normal(vec4 texel)               view space, of a texel with bent normals
    *     float nook_nnao_cone_cosine(float ao)                cosine of the open cone's half angle
-   *     vec3 nook_nnao_multi_bounce(float ao, vec3 albedo)   AO with light that the surroundings reflect
+   * vec3 nook_nnao_multi_bounce(float ao, vec3 albedo) AO that includes light from nearby surfaces
    *     float nook_nnao_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer,
    *                                        float roughness)
    * Look up the irradiance of a probe along the bent normal and multiply it by AO. Multiply glossy

@@ -64,9 +64,9 @@ typedef struct nook_probe_fit_desc {
    * step 1 / n after each sample, without match_sh. Leave `method` and `match_sh` at their defaults then. */
   nook_form form;
   /* Only for lobes. 1 (default): the fit matches the light's spherical harmonics of bands 0 to 2, which make
-   * up 99 % of its irradiance. The total light is then exact, and the error of irradiance falls to about a
-   * third. With fewer than 9 lobes, non-negative methods or a hemisphere, the match is approximate. 0: plain
-   * least squares, for lobes so sharp that there are gaps between them. */
+   * up 99 % of the light's irradiance. The total light is then exact, and the irradiance error falls to about
+   * a third. With fewer than 9 lobes, non-negative methods or a hemisphere, the match is approximate. 0:
+   * plain least squares, for lobes so sharp that there are gaps between them. */
   int32_t match_sh;
   /* Default NOOK_PROBE_BASIS_LOBES. */
   nook_probe_basis basis;
@@ -76,9 +76,8 @@ typedef struct nook_probe_fit_desc {
   float up[3];
   /* The number of lobes without the ambient term; 1 to 64, or 63 with the ambient term. Default 12. */
   uint32_t lobe_count;
-  /* One sharpness for all lobes, 0 to 10000, used if `sharpnesses` is NULL. With 0 (default), Nook chooses
-   * one at which neighbouring lobes overlap equally for any lobe_count, such as 6 for 12 lobes on the sphere.
-   */
+  /* One sharpness for all lobes, 0 to 10000, used if `sharpnesses` is NULL. With 0 (default), Nook chooses it
+   * so that neighbouring lobes overlap equally for any lobe_count; 6 for 12 lobes on the sphere. */
   float sharpness;
   /* lobe_count unit directions (to 1e-3), which the call copies. NULL (default): a Vogel spiral. */
   const float* axes;
@@ -117,8 +116,8 @@ NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float*
 
 /* Adds the samples of the fit `other`, such as one from another thread, to `fit`. The descriptors of both
  * fits must be equal. With least squares, the result is the same as one fit of all samples, up to rounding.
- * With running averages, it is the mean of both solutions, weighted by the sums of their samples' weights.
- * `other` is not changed. No other thread may use the fits. One at a time. Errors: INVALID_ARGUMENT. */
+ * With running averages, the result is the mean of both solutions, weighted by their total weights. `other`
+ * is not changed. No other thread may use the fits. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_merge(nook_probe_fit fit, nook_probe_fit other);
 
 /* Removes all samples. One at a time. Errors: INVALID_ARGUMENT. */
@@ -224,7 +223,7 @@ typedef struct nook_probe_info {
   uint32_t order;
   /* The grid has this many probes in all, and along x, y and z. */
   uint32_t probe_count, counts[3];
-  /* Metres, the position of the first probe. */
+  /* The position of the first probe in metres. */
   float origin_ws[3];
   /* The distances between neighbours along x, y and z in metres. */
   float spacing_ws[3];
@@ -256,8 +255,8 @@ NOOK_API nook_result nook_probe_radiance(nook_probe probe, const float* position
 /* Evaluates the irradiance on `count` surfaces with unit normals, at positions as in nook_probe_radiance. In
  * a grid that was baked with walls, a surface uses only the probes on its side of a wall. For lobes, the
  * clamped cosine is expanded in spherical harmonics up to band 4; the error is at most 0.2 % up to sharpness
- * 6, 1 % at 16, and 1.6 % above. Harmonics are exact. The result is not clamped at 0. The call does not
- * allocate. Any thread. Errors: INVALID_ARGUMENT. */
+ * 6, 1 % at 16, and 1.6 % above. For harmonics, the irradiance is exact. The result is not clamped at 0. The
+ * call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_irradiance(nook_probe probe, const float* positions_ws, const float* normals,
                                            float* irradiance, size_t count);
 

@@ -3,14 +3,14 @@
  * stores them in the model's file. The capsules of a scene's instances are casters. The scene's free
  * occluders are casters too, as spheres, and so are the capsules that you pass in nook_world_frame_desc. AO:
  * Nook computes in closed form which share of a point's cosine-weighted hemisphere a capsule covers; the
- * share is exact if the capsule is above the horizon. The bake fits a scale factor for the radii. The open
- * shares of several capsules are multiplied together. Light: Nook divides the light's cone of directions into
- * NOOK_WORLD_CONE_PARTS equal parts and multiplies the open shares of the capsules in each part. The light's
- * open share is the mean over the parts. Light by channel: with lobes you get a shadow with direction and
- * colour. A capsule that covers a share f of the hemisphere takes away f * rho of the light. For each
+ * share is exact if the capsule is above the horizon. For AO, the bake fits a scale factor for the radii. The
+ * open shares of several capsules are multiplied together. Light: Nook divides the light's cone of directions
+ * into NOOK_WORLD_CONE_PARTS equal parts and multiplies the open shares of the capsules in each part. The
+ * light's open share is the mean over the parts. Light by channel: with lobes you get a shadow with direction
+ * and colour. A capsule that covers a share f of the hemisphere takes away f * rho of the light. For each
  * channel, rho is the mean radiance behind the capsule divided by the hemisphere's mean radiance. So a
- * capsule in front of a bright window darkens more than one in front of a wall. Under constant light the
- * result is AO. The pass uses SH bands 0 to 2 for fewer than 24 lobes, and bands 0 to 4 from 24 lobes on.
+ * capsule in front of a bright window darkens more than a capsule in front of a wall. Under constant light
+ * the result is AO. The pass uses SH bands 0 to 2 for fewer than 24 lobes, and bands 0 to 4 from 24 lobes on.
  * nook_world_sample in experimental/nook_world_sample.h computes the same values at points on the CPU. */
 #ifndef NOOK_WORLD_H
 #define NOOK_WORLD_H
@@ -106,7 +106,7 @@ typedef struct nook_world_frame_desc {
    * replaces the result; `intensity`, `power` and `combine` do not change it. Default 0 degrees: no light. */
   float light_axis[3];
   float light_degrees;
-  /* Capsules farther than this from a point do not shadow it from the light. Default 0: 30 metres. */
+  /* A capsule farther than this from a point does not shadow this point. Default 0: 30 metres. */
   float light_reach;
 } nook_world_frame_desc;
 static inline nook_result nook_world_frame_desc_init(nook_world_frame_desc* desc) {

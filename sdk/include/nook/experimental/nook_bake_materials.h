@@ -1,6 +1,6 @@
-/* Bakes of synthesis and of radiance transfer. These bakes are experimental, like the objects that they make
- * (experimental/nook_synthesis.h, experimental/nook_transfer.h). Use the job functions of nook_bake.h to
- * follow and end the bakes. */
+/* Bakes of texture synthesis and of radiance transfer. These bakes are experimental, like the runtime headers
+ * that use their files (experimental/nook_synthesis.h, experimental/nook_transfer.h). Each bake is a job;
+ * wait for it with the job functions of nook_bake.h. */
 #ifndef NOOK_BAKE_MATERIALS_H
 #define NOOK_BAKE_MATERIALS_H
 
@@ -12,27 +12,29 @@ extern "C" {
 
 /* ---- Synthesis ----
  *
- * A synthesis covers a plane of any size with a material, without visible repeats. The material need not
- * tile. */
+ * A synthesis is a texture of coordinates, with which a material covers a plane of any size without visible
+ * repeats. The material need not tile. */
 
 /* A material and the settings of its synthesis. docs/synthesis.md describes the method. */
 typedef struct nook_bake_synthesis_desc {
   uint32_t struct_size, type;
   const void* next;
   /* The bytes of a .nook file: a material, or a raw material from `nook bake material --keep-raw`. The
-   * material must have at least 16 texels along each side. nook_bake_start reads it before it returns. */
+   * material must have at least 16 texels along each side. nook_bake_start reads these bytes before it
+   * returns. */
   const void* material;
   size_t material_size;
   /* The part of the material that the plane may show: x, y, width and height in texels. If all four are 0
    * (default), the plane may show the whole material. */
   uint32_t crop[4];
   /* 1 (default): the material tiles without a seam, so the plane may continue across the material's border.
-   * 0: the material does not tile. A crop of a material is always treated as not tiling. */
+   * 0: the material does not tile. If you set `crop`, the bake always treats the material as not tiling. */
   uint32_t is_tiling;
   /* Texels along a side of the plane, a multiple of 64 up to 4096; default 512. The plane repeats after this
    * length. The file has 4 bytes for each texel. */
   uint32_t side;
-  /* The amount of random movement, 0 to 1; default 0.8. More movement gives fewer repeats, but more seams. */
+  /* How far the synthesis shifts coordinates at random, 0 to 1; default 0.8. A larger value gives fewer
+   * repeats, but more seams. */
   float jitter;
   /* The number of correction passes at each level, 1 to 16; default 8. */
   uint32_t passes;
@@ -50,7 +52,7 @@ static inline nook_result nook_bake_synthesis_desc_init(nook_bake_synthesis_desc
 }
 
 /* Starts to bake a synthesis, as nook_bake_start does. nook_bake_job_file gives the bytes for
- * nook_synthesis_load. The report of the job contains the sizes, the bake time and the seams.
+ * nook_synthesis_load. The report of the job contains the sizes, the bake time and measurements of the seams.
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`material`),
  * FILE_VERSION, OUT_OF_MEMORY. */
 static inline nook_result nook_bake_start_synthesis(const nook_bake_synthesis_desc* desc,
@@ -101,12 +103,12 @@ typedef struct nook_bake_transfer_desc {
   /* One unit of texture coordinates contains this many tiles of the material, 0.01 to 1000; default 1. Only
    * `votf` uses it. */
   float tiles;
-  /* The bytes of a .nook file with the shape's material. The material must have a VOTF. Light falls through
+  /* The bytes of a .nook file with the shape's material. The material must have a VOTF. Light passes through
    * the holes of the VOTF. NULL (default): surfaces have no holes. */
   const void* votf;
   size_t votf_size;
-  /* Required for NOOK_FORM_PAPER, otherwise NULL (default): the bytes of a material's .nook file. The job
-   * bakes for the light modes of this material. */
+  /* Required for NOOK_FORM_PAPER, otherwise NULL (default): the bytes of a material's .nook file. The result
+   * works only with the light modes of this material. */
   const void* material;
   size_t material_size;
   /* For NOOK_FORM_PAPER: the number of vertex clusters, up to 256; 0 (default): one per 360 vertices. */

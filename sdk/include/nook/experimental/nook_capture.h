@@ -1,4 +1,4 @@
-/* Captures turn cube maps that your engine renders into probes, while the game runs. */
+/* A capture computes probes from cube maps that your engine renders while the game runs. */
 #ifndef NOOK_CAPTURE_H
 #define NOOK_CAPTURE_H
 
@@ -8,16 +8,16 @@
 extern "C" {
 #endif
 
-/* ---- Captures: probes from cube maps that you render ---- */
+/* ---- Captures ---- */
 
 typedef struct nook_gl_capture_s* nook_gl_capture;
 
 /* Which part of a cube map's light goes into the probes. */
 enum {
   NOOK_GL_CAPTURE_ALL = 0,
-  /* Leaves out the suns, so that you can draw them as separate lights. Sun texels keep their colour, but are
-   * reduced to 100 times the mean luminance of the map without suns, as with `nook bake probe --direct sky`.
-   * nook_gl_capture_read gives the removed light. */
+  /* Leaves out the suns, so that you can draw them as separate lights. Sun texels keep their colour, but the
+   * capture reduces their luminance to 100 times the mean luminance of the map without suns, as with `nook
+   * bake probe --direct sky`. nook_gl_capture_read returns the removed light. */
   NOOK_GL_CAPTURE_SKY = 1
 };
 typedef int32_t nook_gl_capture_light;
@@ -32,10 +32,10 @@ typedef struct nook_gl_capture_desc {
    * NULL. The capture does not change the walls of the grid. Set at least one of `probe` and `grid`. If you
    * set both, they must have the same counts, origin and spacing. */
   nook_gl_upload grid;
-  /* A cube-map face has this side length at mipmap level `level`: 4 to 512 texels, default 64. */
+  /* The side length of a cube-map face at mipmap level `level`: 4 to 512 texels, default 64. */
   uint32_t face_size_px;
-  /* The mipmap level of the cube map that is read, at most 15, default 0. If you render large faces, generate
-   * mipmaps and use the level with 64 texels or less. */
+  /* The mipmap level of the cube map that the capture reads, at most 15, default 0. If you render large
+   * faces, generate mipmaps and use the level with 64 texels or less. */
   uint32_t level;
   /* The length of a probe's running average over cube maps, 1 to 65536 maps. When you add map n, it gets the
    * weight 1 / min(n, history). With the default 1, the probe only uses the latest map. A larger value
@@ -44,7 +44,7 @@ typedef struct nook_gl_capture_desc {
   /* Default NOOK_GL_CAPTURE_ALL. */
   nook_gl_capture_light light;
   /* 1 (default): the lobes match the light's spherical harmonics of bands 0 to 2, as in nook_probe_fit_desc.
-   * 0: the lobes are fitted by moments without this constraint. */
+   * 0: the lobes are fitted without this constraint, as with NOOK_PROBE_FIT_STUDY_MOMENTS (nook_sg.h). */
   int32_t match_sh;
   uint32_t reserved;
 } nook_gl_capture_desc;
@@ -52,11 +52,11 @@ static inline nook_result nook_gl_capture_desc_init(nook_gl_capture_desc* desc) 
   return nook_desc_init(NOOK_DESC_GL_CAPTURE, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates the programs and buffers of a capture. Each probe takes 384 bytes for every 12 lobes, and 384 bytes
- * for harmonics. In addition, the capture takes face_size_px * 2304 bytes. The textures keep the old light of
+/* Creates the programs and buffers of a capture. They take 384 bytes per probe for every 12 lobes, 384 bytes
+ * per probe for harmonics, and face_size_px * 2304 bytes for the capture. The textures keep the old light of
  * a probe until you add the first map for this probe. On failure *out is NULL and no OpenGL object is left.
- * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the sums of all probes exceed the texture buffer of
- * this OpenGL; every OpenGL has room for 2,500 probes of 12 lobes), GL, OUT_OF_MEMORY. */
+ * Context thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the data of all probes exceeds the largest texture
+ * buffer of this OpenGL; 2,500 probes of 12 lobes always fit), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_capture_create(nook_gl gl, const nook_gl_capture_desc* desc,
                                             nook_gl_capture* out);
 
@@ -79,7 +79,7 @@ typedef struct nook_gl_capture_info {
   uint32_t struct_size;
   /* The number of maps in the average, at most desc.history. If 0, all fields below are 0. */
   uint32_t maps;
-  /* Bands 0 to 2 of the light, 9 x RGB in the order of nook_sg_to_sh. */
+  /* The spherical harmonics of the light, bands 0 to 2: 9 x RGB in the order of nook_sg_to_sh. */
   float harmonics[27];
   /* With NOOK_GL_CAPTURE_SKY, these fields describe all suns together. The fields are the RGB irradiance on a
    * surface that faces the suns, the unit direction to the centre of their light (or 0), and their solid

@@ -190,7 +190,7 @@ NOOK_API nook_result nook_transfer_light_read_suns(nook_transfer_light light, no
 typedef struct nook_transfer_projection_info {
   uint32_t struct_size;
   /* The relative error is the root of the integral of the squared difference divided by the integral of the
-     squared light. */
+   * squared light. */
   float relative_error;
   /* This is the integral of the negative part of the lobes' light, divided by the integral of its absolute
    * value. */
