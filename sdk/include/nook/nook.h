@@ -81,8 +81,8 @@ NOOK_API uint32_t nook_version(void);
 NOOK_API const char* nook_version_text(void);
 
 /* Your memory functions. `allocate` returns NULL if it fails; `alignment` is a power of two up to 64 bytes.
- * `release` receives the same size and alignment. Nook calls both functions on any thread that calls Nook,
- * and in the jobs of your parallel_for. */
+ * `release` receives the size and alignment of the allocation. Nook calls both functions on any thread that
+ * calls Nook, and in the jobs of your parallel_for. */
 typedef struct nook_allocator {
   void* user;
   void* (*allocate)(void* user, size_t size, size_t alignment);
@@ -95,7 +95,7 @@ typedef int32_t nook_log_severity;
 typedef void (*nook_log_fn)(void* user, nook_log_severity severity, const char* text);
 
 /* A nook_parallel_for_fn runs body(body_user, i) once for every i in [0, count), in any order and on any
- * threads, and returns when all of them are done. A job never calls the function again. */
+ * threads, and returns after all these calls have returned. Nook does not call it from inside `body`. */
 typedef void (*nook_job_fn)(void* body_user, uint32_t index);
 typedef void (*nook_parallel_for_fn)(void* user, uint32_t count, nook_job_fn body, void* body_user);
 

@@ -195,7 +195,8 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  * the receiver's hemisphere. All spheres of a linked instance share one rho; the ground uses the rho of the
  * half-space below its plane. The result is a colour for each vertex. If your shader computes albedo / pi * E
  * * AO, replace AO by this colour; E is the irradiance of the same lobes. Under constant light, the colour is
- * equal to AO. The CPU and the GPU update both compute it; nook_gl.h shows how to use it in a shader. */
+ * equal to AO. Updates on the CPU and on the GPU compute this colour; nook_gl.h shows how a shader uses
+ * it. */
 
 /* Sets the light of an instance for the next updates. Pass at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
  * from nook_probe_read_lobes at the instance's position; the call copies them. `lobe_count` 0 or `lobes` NULL
@@ -232,7 +233,7 @@ NOOK_API nook_result nook_scene_read(nook_scene scene, nook_instance_id instance
 
 typedef struct nook_scene_info {
   uint32_t struct_size;
-  /* The number of instances, and of the instances that the last update evaluated. */
+  /* The number of all instances, and the number of instances that the last update evaluated. */
   uint32_t instances, instances_updated;
   /* The number of receiver-caster pairs that the last update evaluated, and the number of casters, occluders
    * and grounds that it skipped. */

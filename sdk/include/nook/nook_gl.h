@@ -133,8 +133,8 @@ typedef struct nook_gl_view {
   /* For NOOK_CHANNEL_DIRECTIONAL_AO, else 0: the index of the instance's light, which is the first argument
    * of the GLSL functions; valid until the next update. */
   int32_t light;
-  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, with the functions nook_scene_*. The text
-   * is the same for every scene and channel, and valid while the library is loaded. */
+  /* GLSL 3.30 and GLSL ES 3.00 text, without #version and precision lines, with the functions nook_scene_*.
+   * The text is the same for every scene and channel, and valid while the library is loaded. */
   const char* glsl;
 } nook_gl_view;
 
@@ -351,8 +351,8 @@ typedef struct nook_gl_upload_info {
   nook_gl_upload_texture textures[16];
   /* The memory of all textures. On OpenGL ES, a 2D texture of 2048 texels per row replaces a buffer. */
   uint64_t bytes;
-  /* GLSL 3.30, also GLSL ES 3.00, without #version and precisions, valid until you update or destroy the
-   * upload. All names in Nook's GLSL begin with nook_, Nook or NOOK_. */
+  /* GLSL 3.30 and GLSL ES 3.00 text, without #version and precision lines. It is valid until you update or
+   * destroy the upload. All names in Nook's GLSL begin with nook_, Nook or NOOK_. */
   const char* glsl;
   /* The name of a uniform for constants, or NULL: nook_grid_frame for a grid, nook_clip_vec4s for clips. */
   const char* constant;
@@ -452,11 +452,11 @@ NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe prob
  * depth writes. */
 
 /* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials with the same
- * sizes and visibility mapping have the same GLSL and may share a program; a neural material needs its own.
- * The uniform vec2 nook_visibility_mapping (a constant on OpenGL ES) holds threshold and weight; at first,
- * they are the values of the material. On failure *out is NULL and no OpenGL object is left. Context thread.
- * Errors: INVALID_ARGUMENT, UNSUPPORTED (the material needs more texture units, larger textures or other
- * blocks than this OpenGL supports), GL, OUT_OF_MEMORY. */
+ * sizes and visibility mapping have the same GLSL and may share a program; a neural material needs its own
+ * program. The uniform vec2 nook_visibility_mapping (a constant on OpenGL ES) holds threshold and weight; at
+ * first, they are the values of the material. On failure *out is NULL and no OpenGL object is left. Context
+ * thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the material needs more texture units, larger textures or
+ * other blocks than this OpenGL supports), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_upload_material(nook_gl gl, nook_material material, nook_gl_upload* out);
 
 /* ---- Clips in shaders ----

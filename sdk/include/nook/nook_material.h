@@ -75,7 +75,7 @@ NOOK_API nook_result nook_material_load(nook_context context, const void* bytes,
 /* Releases your reference and sets *material to NULL. Any thread. */
 NOOK_API void nook_material_destroy(nook_material* material);
 
-/* One clustered tensor; the symbols are the paper's. */
+/* One clustered tensor. The symbols are those of the paper. */
 typedef struct nook_material_tensor {
   /* R_l is the rank of the light mode (1 for a VOTF). R_v is the rank of the view mode in each cluster. */
   uint32_t rank_light, rank_view;

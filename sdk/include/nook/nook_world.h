@@ -1,17 +1,18 @@
 /* Characters darken the world around them: AO, and the soft shadow of one light, computed from capsules.
  * `nook bake character` fits at most 64 capsules, each rigidly attached to one bone, to ray-traced AO, and
  * stores them in the model's file. The capsules of a scene's instances are casters. The scene's free
- * occluders are casters too, as spheres, and so are the capsules that you pass in nook_world_frame_desc. AO:
- * Nook computes in closed form which share of a point's cosine-weighted hemisphere a capsule covers; the
- * share is exact if the capsule is above the horizon. For AO, the bake fits a scale factor for the radii. The
- * open shares of several capsules are multiplied together. Light: Nook divides the light's cone of directions
- * into NOOK_WORLD_CONE_PARTS equal parts and multiplies the open shares of the capsules in each part. The
- * light's open share is the mean over the parts. Light by channel: with lobes you get a shadow with direction
- * and colour. A capsule that covers a share f of the hemisphere takes away f * rho of the light. For each
- * channel, rho is the mean radiance behind the capsule divided by the hemisphere's mean radiance. So a
- * capsule in front of a bright window darkens more than a capsule in front of a wall. Under constant light
- * the result is AO. The pass uses SH bands 0 to 2 for fewer than 24 lobes, and bands 0 to 4 from 24 lobes on.
- * nook_world_sample in experimental/nook_world_sample.h computes the same values at points on the CPU. */
+ * occluders are casters too, as spheres, and so are the capsules that you pass in nook_world_frame_desc. For
+ * AO, Nook computes in closed form which share of a point's cosine-weighted hemisphere a capsule covers. The
+ * share is exact if the capsule is above the horizon. The radii are multiplied by a factor that the bake
+ * fits. The open shares of several capsules are multiplied together. For the shadow of one light, Nook
+ * divides the light's cone into NOOK_WORLD_CONE_PARTS equal parts, and multiplies the open shares of the
+ * capsules in each part. The light's open share is the mean over the parts. If you pass lobes, you get a
+ * shadow with direction and colour. A capsule that covers a share f of the hemisphere takes away f * rho of
+ * the light. For each channel, rho is the mean radiance behind the capsule divided by the hemisphere's mean
+ * radiance. So a capsule in front of a bright window darkens more than a capsule in front of a wall. Under
+ * constant light the result is AO. The pass uses SH bands 0 to 2 for fewer than 24 lobes, and bands 0 to 4
+ * from 24 lobes on. nook_world_sample in experimental/nook_world_sample.h computes the same values at points
+ * on the CPU. */
 #ifndef NOOK_WORLD_H
 #define NOOK_WORLD_H
 
@@ -32,7 +33,7 @@ extern "C" {
  *     nook_nnao_render(nnao, &frame, &nnao_frame);
  *     world_frame.ao_texture = nnao_info.texture;
  *     nook_world_render(world, &frame, &world_frame);
- * Under probes and one lamp or sun, with nook_world_desc.coloured, world_frame.lobes and light_axis:
+ * To light a surface by probes and one lamp or sun, set nook_world_desc.coloured, lobes and light_axis:
  *     vec4 open = texelFetch(world_texture, pixel, 0);
  *     colour = albedo / pi * (irradiance_of_lobes * open.rgb + irradiance_of_lamp * open.a); */
 

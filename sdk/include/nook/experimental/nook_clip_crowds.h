@@ -11,7 +11,7 @@
  *
  * Culling, the ground, neighbours and levels of detail use a bounding sphere of each body. The library
  * computes the sphere of each frame when it loads the clips. Between two frames, it interpolates their
- * spheres and enlarges the radius, because bones do not move on straight lines between the frames. */
+ * spheres, and enlarges the radius because bones that turn do not move on straight lines. */
 #ifndef NOOK_CLIP_CROWDS_H
 #define NOOK_CLIP_CROWDS_H
 
@@ -35,9 +35,9 @@ typedef struct nook_instance_clip {
  * that you do not pass keep their poses. AO agrees with nook_scene_set_clip within 1e-5, root mean square
  * over a body. Between two frames, the bounding sphere of a body may be larger than after
  * nook_scene_set_clip, so updates may cull fewer casters. The call does not allocate and does not call
- * OpenGL. The next nook_gl_scene_prepare or nook_gl_scene_update allocates if an instance has clips that it
- * has not uploaded yet. One at a time. Errors: INVALID_ARGUMENT (as nook_scene_set_clip; also if an instance
- * occurs twice, or a place scales unevenly), INVALID_HANDLE. */
+ * OpenGL. The next nook_gl_scene_prepare or nook_gl_scene_update allocates if an instance plays clips that
+ * this nook_gl has not uploaded yet. One at a time. Errors: INVALID_ARGUMENT (as nook_scene_set_clip; also if
+ * an instance occurs twice, or a place scales unevenly), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_clips(nook_scene scene, nook_clips clips,
                                           const nook_instance_clip* instances, uint32_t count);
 

@@ -1,14 +1,13 @@
-/* Aids for debugging. You can draw the shapes that a scene evaluates, choose the casters that updates
- * evaluate, and read the memory of a model on the GPU. You can also set debug views and options of the screen
- * pass and the world pass. The shapes show what a scene evaluates: the proxy spheres and key points of an
- * instance in its pose, its links, and its level of detail. Draw them over your own image to see why the AO
- * of a character is wrong. For example, a sphere may stick out of the body, a bone may not follow, or a
- * neighbour may not be linked.
+/* Functions for debugging. You can draw the shapes that a scene evaluates, choose which casters an update
+ * evaluates, and query the GPU memory of a model. You can also set debug views and options of the screen pass
+ * and the world pass. The shapes of an instance are its proxy spheres and key points in the current pose. You
+ * can also read its links and its level of detail. Draw the shapes over your own image to see why the AO of a
+ * character is wrong. For example, a sphere may stick out of the body, a bone may not follow, or a neighbour
+ * may not be linked.
  *
  * The functions that describe or read an instance do not allocate memory and do not change the scene.
- * nook_scene_set_terms changes what the next updates evaluate, and nook_gl_model_memory gives the memory of a
- * model on the GPU. Spheres and points follow the current pose; links and levels come from the last update,
- * on the CPU or on OpenGL. */
+ * nook_scene_set_terms changes which casters the next updates evaluate. Spheres and points follow the current
+ * pose; links and levels come from the last update, on the CPU or on OpenGL. */
 #ifndef NOOK_DEBUG_H
 #define NOOK_DEBUG_H
 
@@ -32,7 +31,8 @@ typedef struct nook_scene_instance_info {
    * casters, occluders and grounds that the last update skipped because of cutoff_error. */
   uint32_t link_count;
   uint32_t culled_count;
-  /* 1: the last update evaluated the instance. 0: a later update will evaluate it (see lod_max_interval). */
+  /* 1: the last update evaluated the instance. 0: a later update will evaluate the instance (see
+   * lod_max_interval). */
   uint32_t updated;
   /* A sphere that contains all spheres and key points of the pose; world space, metres. */
   float bound_centre_ws[3];
@@ -128,10 +128,10 @@ typedef struct nook_gl_memory {
  * INVALID_ARGUMENT. */
 NOOK_API nook_result nook_gl_model_memory(nook_gl gl, nook_model model, nook_gl_memory* memory);
 
-/* ---- Debug descriptors: point `next` of a descriptor of the screen pass or the world pass to one ---- */
+/* ---- Debug descriptors: for `next` of a descriptor of the screen pass or the world pass ---- */
 
-/* How the network is evaluated; the other stages are always draws. Both paths give the same AO, bit for bit
- * on Mesa's llvmpipe. */
+/* Where the network of the screen pass runs. All other stages are always draws. Both paths give the same AO;
+ * on Mesa's llvmpipe, it is bit-identical. */
 enum {
   /* Uses a compute shader if OpenGL supports it, otherwise a fragment shader. On OpenGL ES, always uses a
    * fragment shader. */
@@ -158,13 +158,13 @@ enum {
 };
 typedef int32_t nook_nnao_sample;
 
-/* Settings of a screen pass for tests and measurements. Set nook_nnao_desc.next to it. */
+/* Settings of a screen pass for tests and measurements. Point nook_nnao_desc.next to this struct. */
 typedef struct nook_nnao_debug_desc {
   uint32_t struct_size, type;
   const void* next;
   /* Default NOOK_NNAO_PATH_AUTOMATIC. */
   nook_nnao_path path;
-  /* Default NOOK_NNAO_SAMPLE_MEDIAN, whose error was measured to be the smallest (docs/nnao.md). */
+  /* Default NOOK_NNAO_SAMPLE_MEDIAN, which had the smallest error in measurements (docs/nnao.md). */
   nook_nnao_sample depth_sample;
   /* 1: the pass measures the time of every stage, for nook_nnao_read_timings of experimental/nook_stages.h.
    * Default 0. */
@@ -188,7 +188,7 @@ enum {
 };
 typedef int32_t nook_nnao_view;
 
-/* A debug view of the screen pass. Set nook_nnao_frame_desc.next to it. */
+/* A debug view of the screen pass. Point nook_nnao_frame_desc.next to this struct. */
 typedef struct nook_nnao_frame_debug_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -203,24 +203,26 @@ static inline nook_result nook_nnao_frame_debug_desc_init(nook_nnao_frame_debug_
 enum {
   /* The result. */
   NOOK_WORLD_VIEW_AO = 0,
-  /* The number of casters that a pixel evaluates, divided by 255. At half resolution, a caster of a far body
-   * is weighted by the fraction of the pixels that evaluate it. */
+  /* The number of casters that each pixel evaluates, divided by 255. At half resolution, a caster of a far
+   * body is weighted by the fraction of the pixels that evaluate it. */
   NOOK_WORLD_VIEW_CASTERS = 1,
-  /* The number of exact capsules that a pixel evaluates, divided by 255. Exact capsules are the capsules of a
-   * model or of nook_world_frame_desc. A merged capsule that replaces a whole limb or body is not counted. */
+  /* The number of exact capsules that each pixel evaluates, divided by 255. Exact capsules are the capsules
+   * of a model or of nook_world_frame_desc. A merged capsule that replaces a whole limb or body is not
+   * counted. */
   NOOK_WORLD_VIEW_EXACT_CASTERS = 2,
-  /* The number of bodies for which a pixel tests whether it is within the body's reach, divided by 255. */
+  /* The number of bodies for which each pixel tests whether it lies within the body's reach, divided by
+   * 255. */
   NOOK_WORLD_VIEW_TESTS = 3,
   /* The number of far bodies that the pixels of the half-resolution stage evaluate, interpolated to all
    * pixels; divided by 255. The view shows 0 if the pass has full resolution. */
   NOOK_WORLD_VIEW_FAR_CASTERS = 4,
-  /* The number of far bodies for which the pixels of the half-resolution stage test whether they are within
+  /* The number of far bodies for which each pixel of the half-resolution stage tests whether it lies within
    * the body's reach, interpolated to all pixels; divided by 255. */
   NOOK_WORLD_VIEW_FAR_TESTS = 5
 };
 typedef int32_t nook_world_view;
 
-/* A debug view of the world pass. Set nook_world_frame_desc.next to it. */
+/* A debug view of the world pass. Point nook_world_frame_desc.next to this struct. */
 typedef struct nook_world_frame_debug_desc {
   uint32_t struct_size, type;
   const void* next;

@@ -9,8 +9,8 @@ extern "C" {
 #endif
 
 /* Evaluates `pose_count` poses of a single character, and writes the AO of each vertex in each pose to `ao`:
- * one pose after another, with file_vertex_count floats each. count must be pose_count * file_vertex_count.
- * The result is bit-identical to a scene with one instance for which you call nook_scene_set_pose,
+ * one pose after another, with file_vertex_count floats each. `count` must be pose_count * file_vertex_count.
+ * The result is bit-identical to the AO of a scene with one instance, if you call nook_scene_set_pose,
  * nook_scene_update and nook_scene_read for each pose.
  *
  * `first` describes the first pose, as for nook_scene_set_pose; its kind, layout, place and bone map apply to
@@ -21,7 +21,7 @@ extern "C" {
  * nook_scene_desc_init.
  *
  * The call uses the context's parallel_for if there is one, and allocates. If a pose is invalid, the message
- * names it; `ao` may then hold a part of the result.
+ * names the pose, and `ao` may contain part of the result.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (as nook_scene_set_pose), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_model_evaluate_poses(nook_model model, const nook_scene_desc* settings,
                                                const nook_pose_desc* first, uint32_t pose_count,

@@ -13,8 +13,8 @@
  * Then write the file. To avoid incomplete files, write the bytes to a temporary file in the same folder and
  * rename it. nook::Recording::write of nook.hpp does this.
  *
- * A recording contains no colour image of the scene, but its depth and normals show shapes. Tell this to the
- * people who send you recordings. */
+ * A recording contains no colour image of the scene, but its depth and normals show shapes. Tell this to
+ * everyone who sends you a recording. */
 #ifndef NOOK_RECORDING_H
 #define NOOK_RECORDING_H
 
@@ -27,8 +27,8 @@ extern "C" {
 typedef struct nook_nnao_recording_s* nook_nnao_recording;
 
 /* The contents of a recording. Images have width x height texels, row by row, starting with the row where
- * clip y is -1. Each image is the part of your own image that the projection covers. The fields of the frame
- * and of the pass have the same meaning, ranges and constants as in nook_gl_frame_desc (nook_gl.h),
+ * clip y is -1. Each image contains only the part of your own image that `projection` covers. The fields of
+ * the frame and of the pass have the same meaning, ranges and constants as in nook_gl_frame_desc (nook_gl.h),
  * nook_nnao_frame_desc and nook_nnao_desc (nook_nnao.h). */
 typedef struct nook_nnao_recording_desc {
   uint32_t struct_size, type;
@@ -59,7 +59,7 @@ typedef struct nook_nnao_recording_desc {
   float intensity, power;
   /* A value of nook_gbuffer_ao: 0 none, 1 min, 2 remainder, 3 replace, 4 exclude. */
   int32_t layer;
-  /* What `ao` holds, a value of nook_nnao_view: 0 the result, 1 raw, 2 blurred. */
+  /* The contents of `ao`, a value of nook_nnao_view: 0 the result, 1 raw, 2 blurred. */
   int32_t view;
   /* The fields from here to `path` are the settings of the pass. `path` is 0 for unknown, 1 for fragment, 2
    * for compute. */
@@ -75,8 +75,8 @@ typedef struct nook_nnao_recording_desc {
   const void* network;
   /* The size of `network` in bytes. */
   size_t network_size;
-  /* GL_VENDOR, GL_RENDERER and GL_VERSION, or the similar names of another graphics API; and a note of yours.
-   * UTF-8 without control characters, at most 1000 bytes each. NULL means empty. */
+  /* GL_VENDOR, GL_RENDERER and GL_VERSION, or similar names from another graphics API; and a note of your
+   * own. UTF-8 without control characters, at most 1000 bytes each. NULL means empty. */
   const char* vendor;
   const char* renderer;
   const char* driver_version;
@@ -97,7 +97,7 @@ NOOK_API nook_result nook_nnao_recording_create(nook_context context, const nook
                                                 nook_nnao_recording* out);
 
 /* Loads a recording from the bytes of a .nook file, which you may free afterwards. The library validates
- * everything, so that hostile bytes are safe. On failure *out is NULL.
+ * everything, so you can load files that you do not trust. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_recording_load(nook_context context, const void* bytes, size_t size,
                                               nook_nnao_recording* out);
@@ -107,10 +107,10 @@ NOOK_API nook_result nook_nnao_recording_load(nook_context context, const void* 
 NOOK_API void nook_nnao_recording_destroy(nook_nnao_recording* recording);
 
 /* Writes the .nook file of a recording to `bytes`. Set *size to the buffer's size; the call sets it to the
- * file's size. With `bytes` NULL, the call only sets *size. Storage is lossless. A value of an image takes 4
- * bytes. It takes only 1 to 3 bytes if such a format stores all values of the image exactly, for example
- * 24-bit depth or 10-bit normals. The call allocates from the C++ heap. Any thread. Errors: INVALID_ARGUMENT
- * (also if the buffer is too small; *size is then the required size), OUT_OF_MEMORY. */
+ * file's size. With `bytes` NULL, the call only sets *size. Storage is lossless. Each value of an image takes
+ * 4 bytes, or fewer if a smaller format stores all values of this image exactly, for example 24-bit depth or
+ * 10-bit normals. The call allocates from the C++ heap. Any thread. Errors: INVALID_ARGUMENT (also if the
+ * buffer is too small; *size is then the required size), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_recording_save(nook_nnao_recording recording, void* bytes, size_t* size);
 
 /* Fills *desc with the contents of the recording. If you pass *desc to nook_nnao_recording_create, you get an
@@ -126,11 +126,11 @@ struct nook_nnao_frame_desc;
 /* Records a frame: draws its AO into the pass's own texture, and reads the AO back together with the depth,
  * the normals and the G-buffer AO of the frame. The call ignores `blend`, `target` and `target_name`, and
  * does not write to your target. If the debug view is NOOK_NNAO_VIEW_NORMALS, the call records the result
- * (NOOK_NNAO_VIEW_AO) instead. Logarithmic depth is converted to linear depth, and a radius relative to the
- * scene to metres. `note` is a note for the person who opens the file, or NULL. Call it before or after
- * nook_nnao_render of the same frame. It WAITS FOR THE GPU, allocates, and creates a program, so use it only
- * for bug reports and measurements. The call does not support passes with depth_samples or views. On failure
- * *out is NULL.
+ * (NOOK_NNAO_VIEW_AO) instead. The call converts logarithmic depth to linear depth, and a radius relative to
+ * the scene to metres. `note` is a text for the person who opens the file, or NULL. You can call this
+ * function before or after nook_nnao_render of the same frame. The call WAITS FOR THE GPU, allocates, and
+ * creates a program, so use it only for bug reports and measurements. The call does not support passes with
+ * depth_samples or views. On failure *out is NULL.
  * Context thread. Errors: INVALID_ARGUMENT (as nook_nnao_render; also if the note is longer than 1000 bytes
  * or has control characters), GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_nnao_record(nook_nnao pass, const struct nook_gl_frame_desc* frame,

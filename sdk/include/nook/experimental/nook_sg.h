@@ -1,5 +1,5 @@
-/* Calculations with spherical Gaussians (lobes) and spherical harmonics (SH) in plain arrays, and other
- * methods of probe fits for comparison.
+/* Calculations with spherical Gaussians (lobes) and spherical harmonics (SH) in plain arrays. The header also
+ * declares alternative methods of probe fits, for comparisons.
  *
  * Pass at most NOOK_PROBE_MAX_FUNCTIONS lobes. The functions of this header do not allocate. */
 #ifndef NOOK_SG_H
@@ -13,27 +13,28 @@ extern "C" {
 
 /* ---- Lobes ---- */
 
-/* Evaluates the radiance of lobes from count unit directions.
+/* Evaluates the radiance of lobes from `count` unit directions.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_radiance(const nook_lobe* lobes, uint32_t lobe_count, const float* directions,
                                       float* radiance, size_t count);
 
 /* How the irradiance of a lobe is computed. */
 enum {
-  /* S. Hill's fit for a lobe under the clamped cosine. Its error is at most 1.6 % of the irradiance of the
-   * same light from the direction of the normal. The fit is not defined below sharpness 3, where
+  /* S. Hill's fitted function for the irradiance of a lobe. Its error is at most 1.6 % of the irradiance on a
+   * surface that faces the lobe. The function is not defined below sharpness 3; there,
    * NOOK_PROBE_IRRADIANCE_BANDS is used instead. */
   NOOK_PROBE_IRRADIANCE_FITTED = 0,
   /* The clamped cosine is approximated by a lobe. This is cheaper, but the irradiance is never 0 for surfaces
    * that face away from the light. */
   NOOK_PROBE_IRRADIANCE_INNER_PRODUCT = 1,
-  /* The clamped cosine in spherical harmonics up to band 4, as nook_probe_irradiance uses it. Its error is at
-   * most 0.2 % up to sharpness 6 and 1 % at 16; above 16, NOOK_PROBE_IRRADIANCE_FITTED is used instead. */
+  /* The clamped cosine is expanded in spherical harmonics up to band 4, as in nook_probe_irradiance. The
+   * error is at most 0.2 % up to sharpness 6, and 1 % at 16; above 16, NOOK_PROBE_IRRADIANCE_FITTED is used
+   * instead. */
   NOOK_PROBE_IRRADIANCE_BANDS = 2
 };
 typedef int32_t nook_probe_irradiance_form;
 
-/* Evaluates the irradiance of lobes on count surfaces with the given unit normals.
+/* Evaluates the irradiance of lobes on `count` surfaces with the given unit normals.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_irradiance(const nook_lobe* lobes, uint32_t lobe_count,
                                         nook_probe_irradiance_form form, const float* normals,
@@ -43,8 +44,8 @@ NOOK_API nook_result nook_sg_irradiance(const nook_lobe* lobes, uint32_t lobe_co
 enum {
   /* One spherical Gaussian (after Wang et al. 2009). */
   NOOK_PROBE_SPECULAR_ISOTROPIC = 0,
-  /* Four Gaussians around normals that are visible to the eye (Heitz 2018). Together they form a stretched
-   * lobe at grazing views, and if the two widths differ. */
+  /* Four spherical Gaussians, one around each of four visible microfacet normals (Heitz 2018). For grazing
+   * views, or if alpha_x and alpha_y differ, they form a stretched lobe together. */
   NOOK_PROBE_SPECULAR_ANISOTROPIC = 1
 };
 typedef int32_t nook_probe_specular_form;
@@ -56,7 +57,7 @@ typedef struct nook_probe_surface {
   float view[3];
   /* Unit vector perpendicular to the normal. It is only read if alpha_x and alpha_y differ. */
   float tangent[3];
-  /* The GGX width along the tangent, roughness squared, in [0.001, 1]. */
+  /* The GGX width (roughness squared) along the tangent, in [0.001, 1]. */
   float alpha_x;
   /* The GGX width across the tangent. The isotropic form uses the geometric mean of alpha_x and alpha_y. */
   float alpha_y;
@@ -71,8 +72,8 @@ typedef struct nook_probe_surface {
  *     9 %        anisotropic form, under 12 lobes of sharpness 6 whose amplitudes differ by up to 1 : 9
  *     13 %       isotropic form, under the same lobes
  *     40 %       if one lobe is 20 times as bright as the others
- * For surfaces with two widths, the error of the anisotropic form is at most 14 %. Under constant light, it
- * is at most 5 % at reflectance 1 and 20 % at reflectance 0.04. docs/probes.md has more measurements.
+ * If alpha_x and alpha_y differ, the error of the anisotropic form is at most 14 %; under constant light, it
+ * is at most 5 % at reflectance 1, and 20 % at reflectance 0.04. docs/probes.md has more measurements.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_count,
                                       nook_probe_specular_form form, const nook_probe_surface* surfaces,
@@ -81,16 +82,16 @@ NOOK_API nook_result nook_sg_specular(const nook_lobe* lobes, uint32_t lobe_coun
 /* Writes the lobes for glossy reflection at a point. Pass them to nook_sg_specular. The lobes have the same
  * axes and sharpnesses as the lobes of nook_probe_read_lobes, but different amplitudes, which are never
  * negative. The lobes of nook_probe_read_lobes are good for irradiance, because they keep bands 0 to 2 of the
- * light. But between strong lights, the radiance of those lobes is negative, and glossy surfaces would show
- * black patches. A probe has amplitudes for gloss if it comes from fits, or from a baked file. `nook bake
- * probe` first removes suns from a map, so draw the suns as separate lights. `position_ws` and
+ * light. But between strong lights, their radiance is negative, and glossy surfaces would show black patches.
+ * A probe has amplitudes for gloss if you created it from fits or loaded it from a baked file. `nook bake
+ * probe` removes the suns from a map before the fit, so draw the suns as separate lights. `position_ws` and
  * `function_count` are as in nook_probe_read_lobes. The GLSL of an upload reads the same amplitudes. The call
  * does not allocate. Any thread. Errors: INVALID_ARGUMENT (also if the basis is not NOOK_PROBE_BASIS_LOBES),
  * UNSUPPORTED (the probe has no amplitudes for gloss). */
 NOOK_API nook_result nook_probe_read_gloss(nook_probe probe, const float* position_ws, nook_lobe* lobes,
                                            uint32_t function_count);
 
-/* Computes the integral of a lobe over the sphere.
+/* Computes the integral of a lobe over the sphere, as RGB.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_integral(const nook_lobe* lobe, float rgb[3]);
 
@@ -108,15 +109,15 @@ NOOK_API nook_result nook_sg_convolve(const nook_lobe* a, const nook_lobe* b, no
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_rotate(nook_lobe* lobes, uint32_t lobe_count, const float rotation[9]);
 
-/* ---- Spherical harmonics: the smallest data for the same error of diffuse light ----
+/* ---- Spherical harmonics: smaller than lobes for the same error of diffuse light ----
  *
  * A fit of NOOK_PROBE_BASIS_SH gives coefficients from samples (nook_probe_read_coefficients), and
  * nook_sg_to_sh gives them from lobes. shaders/probe/harmonics.glsl evaluates bands 0 to 2 (27 floats), and
  * ZH3 (15 floats). */
 
 /* Projects lobes exactly onto real spherical harmonics of bands 0 to `order` (1 to 4). `coefficients`
- * receives (order + 1)^2 x RGB, band by band, from m = -l to l, without the Condon-Shortley phase: 0.282095,
- * 0.488603 (y, z, x), and so on.
+ * receives (order + 1)^2 x RGB, band by band, and within band l from m = -l to l. The basis functions have no
+ * Condon-Shortley phase; the first four are 0.282095 and 0.488603 times y, z and x.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sg_to_sh(const nook_lobe* lobes, uint32_t lobe_count, uint32_t order,
                                    float* coefficients);
@@ -124,21 +125,21 @@ NOOK_API nook_result nook_sg_to_sh(const nook_lobe* lobes, uint32_t lobe_count, 
 /* The value of `order` for the 5 x RGB coefficients of nook_sh_to_zh3. */
 enum { NOOK_SH_ZH3 = 100 };
 
-/* Evaluates the radiance from `count` unit directions, exactly for these coefficients. order is 1 to 4, or
- * NOOK_SH_ZH3. The result is not clamped at 0: harmonics ring below 0 opposite a sun.
+/* Evaluates the radiance from `count` unit directions, exactly for these coefficients. `order` is 1 to 4, or
+ * NOOK_SH_ZH3. The result is not clamped at 0, and can be negative opposite a sun.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_radiance(const float* coefficients, uint32_t order, const float* directions,
                                       float* rgb, size_t count);
 
 /* Evaluates the irradiance on `count` surfaces with the given unit normals, exactly for these coefficients.
- * order is 1 to 4, or NOOK_SH_ZH3. The result is not clamped at 0. Any thread. Errors: INVALID_ARGUMENT. */
+ * `order` is 1 to 4, or NOOK_SH_ZH3. The result is not clamped at 0. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_irradiance(const float* coefficients, uint32_t order, const float* normals,
                                         float* rgb, size_t count);
 
 /* Computes quadratic zonal harmonics, ZH3 (Roughton et al. 2024), from bands 0 to 2, 9 x RGB. The result is 5
  * x RGB: bands 0 and 1 unchanged, then one coefficient for band 2. This coefficient is the part of band 2
- * that is symmetric around the direction of band 1's luminance. You can interpolate and pack ZH3 like other
- * coefficients.
+ * that is symmetric around the direction of band 1's luminance. You can interpolate and pack ZH3 in the same
+ * way as other coefficients.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_to_zh3(const float* coefficients, float* zonal);
 
@@ -156,8 +157,8 @@ enum {
   /* b_i = m_i / sum_k G_ik, or b_i = m_i / G_ii for harmonics. Constant light is exact, and other light is
    * blurred. match_sh has no effect. */
   NOOK_PROBE_FIT_STUDY_NAIVE = 1,
-  /* The running average in its first published form, b_i += (1 / n) B_i (v - R) / mean of B_i. It has the
-   * same limit as the corrected form, but about half the step, so it converges much more slowly. Not
+  /* The running average in its first published form, b_i += (1 / n) B_i (v - R) / mean of B_i. It converges
+   * to the same result as the corrected form, but with about half the step, so much more slowly. Not
    * available for harmonics. match_sh has no effect. */
   NOOK_PROBE_FIT_STUDY_RUNNING_AVERAGE_ORIGINAL = 2,
   /* b = G^-1 m with the exact G. Merging fits is exact. */
@@ -167,30 +168,31 @@ typedef int32_t nook_probe_study_method;
 
 /* How the divisor D_i of the published step is computed; see nook_probe_fit_study_desc.published_step. */
 enum {
-  /* The average over the same samples, or the exact integral if this is larger. */
+  /* The average over the same samples or the exact integral, whichever is larger. */
   NOOK_PROBE_DENOMINATOR_LOCKSTEP = 0,
   /* The exact integral. */
   NOOK_PROBE_DENOMINATOR_PRECOMPUTED = 1
 };
 typedef int32_t nook_probe_denominator;
 
-/* Options of a fit for comparisons with papers. Set nook_probe_fit_desc.next to it. */
+/* Options of a fit for comparisons with papers. Point nook_probe_fit_desc.next to this struct. */
 typedef struct nook_probe_fit_study_desc {
   uint32_t struct_size, type;
   const void* next;
   /* Default NOOK_PROBE_FIT_STUDY_DEFAULT. Another method replaces nook_probe_fit_desc.method; `method` and
-   * `form` must then have their defaults. */
+   * `form` of nook_probe_fit_desc must then have their defaults. */
   nook_probe_study_method method;
-  /* 1: running averages take the published step. At each sample (direction w, radiance v), where a is the
-   * domain's area and n the sum of weights so far, b_i += (1 / n) (B_i(w) (v - sum over k != i of b_k B_k(w))
-   * / D_i - b_i), where D_i is an estimate of G_ii / a; the non-negative form clamps after each sample.
-   * NOOK_FORM_PAPER always takes the published step. 0 (default): one step per block, (n G / a + S) (b' - b)
-   * = m - S b. S and m are the block's sums of B_i B_k and B_i v, and n is the sum of weights before the
-   * block. */
+  /* 1: running averages take the published step at each sample. The sample has the direction w and the
+   * radiance v; a is the domain's area, and n is the sum of weights so far. The step is b_i += (1 / n)
+   * (B_i(w) (v - sum over k != i of b_k B_k(w)) / D_i - b_i). D_i is an estimate of G_ii / a. The
+   * non-negative form clamps after each sample. NOOK_FORM_PAPER always takes the published step. 0 (default):
+   * running averages take one step per block of samples. It solves (n G / a + S) (b' - b) = m - S b for the
+   * new coefficients b'. S and m are the block's sums of B_i B_k and B_i v, and n is the sum of weights
+   * before the block. */
   int32_t published_step;
   /* Only the published step uses it. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
   nook_probe_denominator denominator;
-  /* 1: the functions are ambient dice, whatever nook_probe_fit_desc.basis is. match_sh has no effect on them.
+  /* 1: the basis functions are ambient dice, and nook_probe_fit_desc.basis and match_sh have no effect.
    * Default 0. */
   int32_t dice;
 } nook_probe_fit_study_desc;
@@ -199,9 +201,9 @@ static inline nook_result nook_probe_fit_study_desc_init(nook_probe_fit_study_de
 }
 
 /* Starts the running average `fit` from the coefficients of the fit `short_run` instead of 0. `fit` must not
- * have samples yet. The coefficients get the same weight as the samples of `short_run`. Both fits must have
- * the same basis. Methods other than running averages ignore the call. nook_probe_fit_reset removes the seed.
- * No other thread may use the fits.
+ * have samples yet. The coefficients have the same total weight as the samples of `short_run`. Both fits must
+ * have the same basis. Methods other than running averages ignore the call. nook_probe_fit_reset removes the
+ * seed. No other thread may use the fits.
  * One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
 

@@ -1,4 +1,4 @@
-/* The stages of the screen-space pass as data, for graphics interfaces other than OpenGL, such as Vulkan or
+/* The stages of the screen-space pass as data, for graphics APIs other than OpenGL, such as Vulkan or
  * Direct3D. You get the shader texts, descriptions of the images, and the values of the uniform buffers. You
  * create the images and pipelines yourself, and draw the stages. Only nook_nnao_read_timings makes OpenGL
  * calls and needs an OpenGL context. The library must be built with its OpenGL part (NOOK_GL, the default),
@@ -14,9 +14,9 @@
  *     nook_nnao_stages_frame(stages, &frame, &desc, NULL, 0, 0, &values);
  * Then, for each stage of values.drawn_stages in order, draw three vertices without attributes, without
  * blending, depth test and culling, into the viewport of the stage. Add barriers: a stage must end before the
- * next stage reads its output, and a stage must not write an image that the previous frame still reads. All
- * images except yours are written as colour attachments and read as textures; their contents before the first
- * frame do not matter. samples/vulkan does all this in Vulkan 1.1.
+ * next stage reads its output, and a stage must not write an image that the previous frame still reads. The
+ * stages write all images except yours as colour attachments, and read them as textures. The initial contents
+ * of these images do not matter. samples/vulkan does all this in Vulkan 1.1.
  *
  * The shaders are GLSL 4.50 for Vulkan, and also for OpenGL 4.5. Compile them with `glslangValidator -V`;
  * SPIRV-Cross can convert the result to HLSL or MSL. In set 0, binding 0 is a uniform buffer with
@@ -28,8 +28,8 @@
  * use in Vulkan. In Direct3D, and in Vulkan with viewports of negative height, clip y is 1 in the first row.
  * There, negate the second row of the projection (elements 1, 5, 9 and 13), and draw the stages with
  * viewports of positive height. Always set frame.clip_space to NOOK_CLIP_SPACE_ZERO_TO_ONE. View space looks
- * along -z. If yours looks along +z, negate the third column of the projection (elements 8 to 11), and negate
- * z of normals with normal_matrix. */
+ * along -z. If your view space looks along +z, negate the third column of the projection (elements 8 to 11),
+ * and negate z of normals with normal_matrix. */
 #ifndef NOOK_STAGES_H
 #define NOOK_STAGES_H
 
@@ -42,10 +42,10 @@ extern "C" {
 
 typedef struct nook_nnao_stages_s* nook_nnao_stages;
 
-/* Images that stages read or write. The first four are your images. For passes with views, your images are
- * texture arrays. For passes with depth_samples, the depth image is multisampled. For passes with
- * normal_samples, the normal image is multisampled. If your frames lack one of the four, use any 1 x 1
- * image. */
+/* Images that stages read or write. You provide the first four, such as your depth image. For passes with
+ * views, your images are texture arrays. For passes with depth_samples, the depth image is multisampled. For
+ * passes with normal_samples, the normal image is multisampled. If your frames have no such image, bind any 1
+ * x 1 image. */
 enum {
   NOOK_NNAO_IMAGE_HOST_DEPTH = 0,
   NOOK_NNAO_IMAGE_HOST_NORMAL = 1,
@@ -98,7 +98,7 @@ enum {
 NOOK_API nook_result nook_nnao_stages_create(nook_context context, const nook_nnao_desc* desc,
                                              nook_nnao_stages* out);
 
-/* Releases the object and its texts, and sets *stages to NULL; *stages may be NULL.
+/* Releases the object, which invalidates its texts, and sets *stages to NULL; *stages may be NULL.
  * Any thread. */
 NOOK_API void nook_nnao_stages_destroy(nook_nnao_stages* stages);
 
@@ -107,7 +107,7 @@ typedef struct nook_nnao_stages_info {
   uint32_t stage_count;
   /* The vertex shader of every stage; it draws one triangle that covers the viewport. */
   const char* vertex_shader;
-  /* The data for binding 1, which never changes. Pointers are valid while the object lives. */
+  /* The data for binding 1, which never changes. All pointers here are valid while the object lives. */
   const void* network;
   uint32_t network_bytes;
   /* The settings in use, with the preset's value where the descriptor had -1. */
@@ -167,13 +167,14 @@ typedef struct nook_nnao_frame_values {
 } nook_nnao_frame_values;
 
 /* Computes the values of a frame. The result depends only on the arguments, and the call does not allocate.
- * Set frame->normal_texture and desc->motion_vectors to 1 if the frame has such images; the call reads no
+ * Set frame->normal_texture and desc->motion_vectors to 1 if the frame has such images. The call ignores all
  * other texture names. The call does not know the format of the normals. If normal_bias is not 0, it assumes
- * normalised integers, in which normals shorter than 0.25 are reconstructed from depth. `target` and
- * `target_name` are not read; `blend` is read only with bent normals. The debug view (`show`) can be
- * NOOK_NNAO_VIEW_AO or BLURRED, or RAW without max_history_frames. `earlier` is the previous frame, or NULL
- * after a cut. `number` is the number of frames before this one. In passes with max_history_frames, `number`
- * changes the noise from frame to frame. `view` is less than nook_nnao_desc.views, or 0.
+ * normalised integers, so the pass reconstructs normals that are shorter than 0.25 from depth. The call does
+ * not read `target` and `target_name`, and reads `blend` only with bent normals. The debug view
+ * (nook_nnao_frame_debug_desc.show) can be NOOK_NNAO_VIEW_AO or _BLURRED; without max_history_frames also
+ * _RAW. `earlier` is the previous frame, or NULL after a cut. `number` is the number of frames before this
+ * one. In passes with max_history_frames, `number` changes the noise from frame to frame. `view` is the index
+ * of the view, less than nook_nnao_desc.views, or 0.
  * Any thread. Errors: INVALID_ARGUMENT (as nook_nnao_render). */
 NOOK_API nook_result nook_nnao_stages_frame(nook_nnao_stages stages, const nook_gl_frame_desc* frame,
                                             const nook_nnao_frame_desc* desc,
@@ -213,18 +214,18 @@ typedef struct nook_nnao_timings {
   uint32_t struct_size;
   /* 0: no frame is finished yet, or the pass has no timers; all other fields are then 0. */
   int32_t valid;
-  /* Linear depth, and the normals of the paper's form. */
+  /* Computing linear depth, and normals for a network of the paper's form. */
   float normals;
-  /* The network, edge detection, reading or reconstructing normals, and the mean over frames. */
+  /* Evaluating the network, detecting edges, reading or reconstructing normals, and averaging over frames. */
   float occlusion;
-  /* The filter at half resolution. At full resolution, `resolve` includes the filter. */
+  /* Filtering at half resolution. At full resolution, `resolve` includes the time of the filter. */
   float blur;
   /* Filtering or upsampling, combining with G-buffer AO, and writing the target. */
   float resolve;
   float total;
 } nook_nnao_timings;
 
-/* Gives the latest times. The call never waits.
+/* Gives the times of the last finished frame. The call never waits.
  * Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_nnao_read_timings(nook_nnao pass, nook_nnao_timings* timings);
 

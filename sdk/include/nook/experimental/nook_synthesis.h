@@ -1,6 +1,6 @@
-/* Coordinate textures cover a plane with a compressed material, without visible repeats. `nook bake
- * synthesis` makes coordinate textures; the material need not tile. Each texel of the plane stores which
- * texel of the material is shown there.
+/* With a coordinate texture, a compressed material covers a plane without visible repeats. `nook bake
+ * synthesis` makes the coordinate texture; the material need not tile. Each texel of the coordinate texture
+ * stores which texel of the material the plane shows there.
  *
  * nook_gl_upload_synthesis uploads a coordinate texture and gives its GLSL. */
 #ifndef NOOK_SYNTHESIS_H
@@ -15,7 +15,7 @@ extern "C" {
 typedef struct nook_synthesis_s* nook_synthesis;
 
 /* Loads a coordinate texture from the bytes of a .nook file, which you may free afterwards. The library
- * validates everything, so that hostile bytes are safe. On failure *out is NULL.
+ * validates everything, so you can load files that you do not trust. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_synthesis_load(nook_context context, const void* bytes, size_t size,
                                          nook_synthesis* out);
@@ -28,8 +28,8 @@ typedef struct nook_synthesis_info {
   uint32_t struct_size;
   /* Texels along a side of the plane. The plane repeats after this length. */
   uint32_t side;
-  /* The size in texels of the material that the coordinates refer to. Compare it with width and height of
-   * nook_material_info, and use the coordinate texture only with a material of the same size. */
+  /* The size in texels of the material that the coordinates refer to. Use the coordinate texture only with a
+   * material of this size; see width and height of nook_material_info. */
   uint32_t material_width;
   uint32_t material_height;
   /* The bytes that the texture takes in host memory. An upload takes the same number of bytes in texture
@@ -50,7 +50,7 @@ NOOK_API nook_result nook_synthesis_material_uvs(nook_synthesis synthesis, const
 
 /* ---- In shaders ----
  *
- * How to use coordinate textures in your shaders.
+ * This section explains how your shaders use a coordinate texture.
  *
  * Call nook_gl_upload_synthesis once. Put its GLSL after the #version line of your fragment shader, together
  * with the material's GLSL. For each draw, call nook_gl_upload_bind for both uploads. Compute the material's
@@ -59,7 +59,7 @@ NOOK_API nook_result nook_synthesis_material_uvs(nook_synthesis synthesis, const
  *     vec2 at = nook_synthesis_material_uv(uv);
  *     nook_material_decode(at, dFdx(uv), dFdy(uv), view, modes);
  *     alpha = nook_material_visibility(nook_material_occlusion(at, dFdx(uv), dFdy(uv), view));
- * The coordinate texture takes one more texture fetch per pixel. */
+ * The coordinate texture costs one additional texture fetch per pixel. */
 
 /* Uploads a coordinate texture, which you may destroy afterwards. The upload consists of a
  * GL_TEXTURE_2D_ARRAY of GL_RG16UI for the sampler nook_synthesis_texels, and GLSL with the function

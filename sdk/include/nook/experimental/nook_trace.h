@@ -1,5 +1,5 @@
-/* References for measurements: ray-traced ambient occlusion and path-traced irradiance of a scene, and poses
- * and bake options for studies. */
+/* Reference values for measurements: ray-traced ambient occlusion and path-traced irradiance of a scene. The
+ * header also declares poses and bake options for comparisons. */
 #ifndef NOOK_TRACE_H
 #define NOOK_TRACE_H
 
@@ -26,7 +26,7 @@ enum {
 };
 typedef int32_t nook_bake_clip_split;
 
-/* Options that you need only for comparisons. Set nook_bake_character_desc.next to it. */
+/* Options that you need only for comparisons. Point nook_bake_character_desc.next to this struct. */
 typedef struct nook_bake_character_study_desc {
   uint32_t struct_size, type;
   const void* next;
@@ -38,8 +38,8 @@ typedef struct nook_bake_character_study_desc {
   /* NOOK_FORM_PAPER: the block coordinate descent of Le et al. 2019, with any kernel. Default
    * NOOK_FORM_DEFAULT: the fit that belongs to nook_bake_character_desc.form. */
   nook_form fit;
-  /* The number of recorded poses of your game, in the layout of extra_poses_3x4. The bake ends with a fit of
-   * the constant and the scale of each vertex to these poses. Default 0: no poses. */
+  /* The number of recorded poses of your game, in the layout of extra_poses_3x4. At the end, the bake fits
+   * two numbers of each vertex to these poses, the constant and the scale of its AO. Default 0: no poses. */
   uint32_t calibration_pose_count;
   const float* calibration_poses_3x4;
 } nook_bake_character_study_desc;
@@ -47,8 +47,8 @@ static inline nook_result nook_bake_character_study_desc_init(nook_bake_characte
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER_STUDY, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Writes poses in which one joint is rotated. It uses every joint that moves some but not all vertices, and
- * rotates each about its axes, on a grid of steps^3 rotations over +-range_degrees. With `bones_3x4` NULL,
+/* Writes poses in which only one joint is rotated. The call rotates every joint that moves some but not all
+ * vertices, about its three axes, on a grid of steps^3 rotations over +-range_degrees. With `bones_3x4` NULL,
  * the call only sets *pose_count to the number of poses. Otherwise, you must set *pose_count to this number.
  * Any thread. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_character_single_joint_poses(nook_bake_character character, uint32_t steps,
@@ -84,12 +84,12 @@ typedef struct nook_bake_trace_desc {
   uint32_t threads;
   /* The random seed, default 1. The result does not depend on the number of threads. */
   uint64_t seed;
-  /* Metres, > 0, default infinity. A ray that hits nothing within this distance counts as open. */
+  /* Metres, > 0, default infinity. A ray that hits nothing within this distance is not occluded. */
   float radius;
   /* The distance of a ray's origin from its point, in metres along the normal; >= 0, default 1e-4. */
   float origin_offset;
-  /* NULL (default), or a function that receives the number of traced points during the call. It runs on
-   * threads of the call, one call at a time. If it returns 0, tracing ends within about 10 ms with
+  /* NULL (default), or a function that receives the number of traced points during the call. It is called on
+   * threads of the trace, one call at a time. If it returns 0, tracing ends within about 10 ms with
    * NOOK_ERROR_CANCELLED. */
   nook_bake_progress_fn progress;
   void* progress_user;

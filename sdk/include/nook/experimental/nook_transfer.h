@@ -1,31 +1,33 @@
-/* Radiance transfer: compressed materials on static shapes under any distant light, with the shapes' own
- * shadows. `nook bake transfer` bakes the visibility of a shape; at run time, you can use any material on it.
+/* Radiance transfer draws compressed materials on static shapes. The light is any distant light, and each
+ * shape shadows itself. `nook bake transfer` bakes the visibility of a shape. At run time, you can use any
+ * material on the shape.
  *
  * Light is represented by lobes: spherical Gaussians with the same sharpness, distributed evenly over the
- * sphere. A vertex p has, for channel c and light mode a of a material, the vector
- *     r_p[c, a] = sum over lobes j of amplitude_j[c] share_p,j response[c, a](direction of lobe j at p),
- * share_p,j is a byte of the file: the cosine-weighted fraction of lobe j that no triangle hides from vertex
- * p. The response is the integral of the lobe times the material's light basis over the upper hemisphere.
- * Light that the shape reflects onto itself is added if you bake with `--bounces`; it uses the mean
- * reflectance of the response's material. A pixel's radiance is sum_a L_a r[c, a], with the light modes L_a
- * of nook_material_decode and r interpolated between vertices.
+ * sphere. At run time, Nook computes a vector for each vertex p, with an entry for each channel c and light
+ * mode a of the material:
+ *     r_p[c, a] = sum over lobes j of amplitude_j[c] share_p,j response[c, a](direction of lobe j at p)
+ * Here share_p,j is a byte of the file: the cosine-weighted fraction of lobe j that no triangle hides from
+ * vertex p. The response is the integral of the lobe times the material's light basis over the upper
+ * hemisphere. If you bake with `--bounces`, the vector includes light that the shape reflects onto itself,
+ * computed with the mean reflectance of the material. A pixel's radiance is sum_a L_a r[c, a], with the light
+ * modes L_a of nook_material_decode and r interpolated between vertices.
  *
- * When the light or the shape rotates, call
+ * When the light changes or the shape rotates, call
  *     nook_transfer_light_project(light, lobe_count, NULL, amplitudes, NULL);
  *     nook_transfer_read_vectors(response, &desc, vectors, vertex_count, 0);
- * where `desc` has the transfer and the amplitudes. When only the view moves, you need not call anything.
- * Files in the paper's form (`--form paper`) contain matrices from lobes to the light modes of one material,
- * instead of shares. You use them with the same calls.
+ * where `desc` contains the transfer and the amplitudes. When only the camera moves, you need not call
+ * anything. Files in the paper's form (`--form paper`) contain matrices from lobes to the light modes of one
+ * material, instead of shares. You use them with the same calls.
  *
  * Directions are in the space of the baked vertices. Frames have x in the direction of increasing u, z along
  * the normal, and y = handedness * cross(normal, tangent) in the direction of increasing v. The vectors of a
- * vertex are 3 x light_modes floats: the modes of red, then of green, then of blue. The least-squares fit
- * rings around bright sources, so light and vectors can be slightly negative; nook_transfer_projection_info
- * gives the negative share.
+ * vertex are 3 x light_modes floats: the modes of red, then of green, then of blue. The least-squares fit of
+ * the lobes rings around bright sources, so light and vectors can be slightly negative;
+ * nook_transfer_projection_info gives the negative share.
  *
- * nook_gl_upload_transfer keeps vectors in a buffer, and nook_gl_upload_describe gives the GLSL. The method
- * follows section 6.3 of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012. The paper's
- * form is the method of that paper. The default form separates transfer and material. */
+ * nook_gl_upload_transfer keeps vectors in a buffer, and nook_gl_upload_describe gives the GLSL. The paper's
+ * form is the method in section 6.3 of Y.-T. Tsai and Z.-C. Shih, K-Clustered Tensor Approximation, TOG 2012.
+ * The default form differs from the paper: it separates transfer and material. */
 #ifndef NOOK_TRANSFER_H
 #define NOOK_TRANSFER_H
 
@@ -43,7 +45,7 @@ typedef struct nook_transfer_response_s* nook_transfer_response;
 /* ---- Baked shapes: immutable, shared by threads ---- */
 
 /* Loads baked transfer from the bytes of a .nook file, which you may free afterwards. The library validates
- * everything, so that hostile bytes are safe. On failure *out is NULL.
+ * everything, so you can load files that you do not trust. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, BAD_FILE, FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_load(nook_context context, const void* bytes, size_t size,
                                         nook_transfer* out);
@@ -67,11 +69,11 @@ typedef struct nook_transfer_info {
   uint32_t bounces;
   /* 1: the bake let light through the holes of a material's VOTF; see nook_transfer_check. */
   int32_t has_holes;
-  /* Bytes of reflected light in memory, vertex_count * bounces * 18. */
+  /* Bytes of the reflected light (bounces) in memory, vertex_count * bounces * 18. */
   uint64_t indirect_bytes;
   /* NOOK_FORM_DEFAULT: a share for each vertex and lobe; works with any material. NOOK_FORM_PAPER: matrices
-   * from lobes to the light modes of one material, compressed by CTA; needs less work when the light
-   * changes. */
+   * from lobes to the light modes of one material, compressed by CTA. An update after a change of the light
+   * takes less work. */
   nook_form form;
   /* For the paper's form, the number of light modes of the material that it was baked with; otherwise 0. */
   uint32_t light_modes;
@@ -83,9 +85,9 @@ typedef struct nook_transfer_info {
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_transfer_describe(nook_transfer transfer, nook_transfer_info* info);
 
-/* Writes the frames that the vectors refer to. Each vertex has a normal with 3 floats and a tangent with 4
- * floats, the handedness last; either array may be NULL. If you draw with these frames, you need no tangents
- * of your own. `vertex_count` must be the transfer's vertex count. The paper's form has no frames.
+/* Writes the tangent frames that the vectors refer to: for each vertex, a normal of 3 floats and a tangent of
+ * 4 floats, the handedness last. Either array may be NULL. If you draw with these frames, you need no
+ * tangents of your own. `vertex_count` must be the transfer's vertex count. The paper's form has no frames.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the paper's form). */
 NOOK_API nook_result nook_transfer_read_frames(nook_transfer transfer, float* normals, float* tangents,
                                                uint32_t vertex_count);
@@ -107,8 +109,9 @@ static inline nook_result nook_transfer_mesh_desc_init(nook_transfer_mesh_desc* 
   return nook_desc_init(NOOK_DESC_TRANSFER_MESH, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Checks that a mesh and a material are the ones that were baked. Pass NULL for what you do not want to
- * check. Call it once after loading, because nook_transfer_read_vectors does not compare meshes.
+/* Checks that a mesh and a material are the same as in the bake. Pass NULL for the one that you do not want
+ * to check. Call this function once after loading, because nook_transfer_read_vectors does not compare
+ * meshes.
  *
  * The mesh must have the same number of vertices as the baked mesh, and the same checksum of each array. For
  * the paper's form, the material must have the baked light modes. If the bake let light through holes, the
@@ -198,8 +201,9 @@ typedef struct nook_transfer_projection_info {
 } nook_transfer_projection_info;
 
 /* Projects a light to lobes by least squares over the sphere. `amplitudes` receives lobe_count x RGB.
- * `lobe_count` is 12 to 2562, and must be the same as in your response and your transfer. `light_from_shape`
- * is a rotation from the shape's space to the light's space, 9 floats row-major; NULL means no rotation.
+ * `lobe_count` is 12 to 2562, and must be the same as in the response and the transfer that you use.
+ * `light_from_shape` is a rotation from the shape's space to the light's space, 9 floats row-major; NULL
+ * means no rotation.
  *
  * The first call with a lobe_count factors a Gram matrix, which takes about lobe_count^3 / 6 multiply-adds.
  * The context keeps the matrix until it is destroyed, in lobe_count^2 * 4 bytes (25 MiB at 2562). Later calls
@@ -269,8 +273,8 @@ typedef struct nook_transfer_vectors_desc {
   uint32_t lobe_count;
   /* With a transfer: the first vertex to write. Default 0. */
   uint32_t first_vertex;
-  /* Without a transfer: unit normals (3 floats each) and tangents (4 floats each, the handedness last);
-   * required. NULL (default) with a transfer. */
+  /* Only without a transfer, and then required: unit normals (3 floats each) and tangents (4 floats each, the
+   * handedness last). Default NULL. */
   const float* normals;
   const float* tangents;
 } nook_transfer_vectors_desc;
@@ -278,20 +282,21 @@ static inline nook_result nook_transfer_vectors_desc_init(nook_transfer_vectors_
   return nook_desc_init(NOOK_DESC_TRANSFER_VECTORS, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Writes the vectors of `vertex_count` vertices under a light. Call it when the light or the shape rotates.
- * `stride_floats` is the number of floats from one vertex to the next; 0 means vector_floats of
- * nook_transfer_response_info. The call uses the context's parallel_for if you set one; the result does not
- * depend on it. It allocates 16 bytes per lobe; in the paper's form, 3 * light_modes * vertex rank floats per
- * cluster (2.2 KiB at 16 modes); and without a transfer, the frames of the vertices. Any thread. Errors:
- * INVALID_ARGUMENT (also if in the paper's form the response belongs to another material), OUT_OF_MEMORY. */
+/* Writes the vectors of `vertex_count` vertices under a light. Call this function when the light changes or
+ * the shape rotates. `stride_floats` is the number of floats from one vertex to the next; 0 means
+ * vector_floats of nook_transfer_response_info. The call uses the context's parallel_for if you set one; the
+ * result does not depend on it. It allocates 16 bytes per lobe; in the paper's form, 3 * light_modes * vertex
+ * rank floats per cluster (2.2 KiB at 16 modes); and without a transfer, the frames of the vertices. Any
+ * thread. Errors: INVALID_ARGUMENT (also if in the paper's form the response belongs to another material),
+ * OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_read_vectors(nook_transfer_response response,
                                                 const nook_transfer_vectors_desc* desc, float* vectors,
                                                 uint32_t vertex_count, uint32_t stride_floats);
 
 /* Computes the radiance (linear RGB) of material pixels from one vector of `vector_floats` floats per pixel.
- * The call ignores the field `light` of a pixel, and decodes with one fetch. Use it to check your shader: it
- * is the reference for the GLSL of nook_gl_upload_transfer. Any thread. Errors: INVALID_ARGUMENT (also if
- * vector_floats does not fit the material, or a number is not finite). */
+ * The call ignores the field `light` of a pixel, and decodes with one fetch. Use it to check your shader; it
+ * gives the reference values for the GLSL of nook_gl_upload_transfer. Any thread. Errors: INVALID_ARGUMENT
+ * (also if vector_floats does not fit the material, or a number is not finite). */
 NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_material_pixel* pixels,
                                          const float* vectors, uint32_t vector_floats, uint32_t count,
                                          float* radiance);
@@ -300,9 +305,10 @@ NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_mate
  *
  * An upload (nook_gl.h) stores the vectors of a shape's vertices. Its GLSL lights a material with them.
  *
- * Call nook_gl_upload_transfer once for a shape, and nook_gl_update_transfer when the light or the shape
- * rotates. Put the GLSL of nook_gl_upload_describe after the #version line of the vertex shader, and after
- * the material's GLSL in the fragment shader. For each draw, call nook_gl_upload_bind. The vertex shader:
+ * Call nook_gl_upload_transfer once for a shape, and nook_gl_update_transfer when the light changes or the
+ * shape rotates. Put the GLSL of nook_gl_upload_describe after the #version line of the vertex shader, and
+ * after the material's GLSL in the fragment shader. For each draw, call nook_gl_upload_bind. The vertex
+ * shader:
  *     out vec4 vectors[3 * NOOK_LIGHT_VEC4_COUNT];
  *     nook_transfer_vectors(gl_VertexID, vectors);
  * The fragment shader:
@@ -314,12 +320,13 @@ NOOK_API nook_result nook_transfer_shade(nook_material material, const nook_mate
  * with more light modes, use nook_transfer_mix in the fragment shader instead. You can also upload the floats
  * of nook_transfer_read_vectors as your own vertex attributes, and call the same nook_transfer_radiance. */
 
-/* Creates an upload for a transfer and a response, with all light 0. With a transfer in the default form, or
- * with `transfer` NULL and `vertex_count` vertices of your own, the upload holds vectors. With a transfer in
- * the paper's form, it holds the vertices, and nook_transfer_vectors mixes the matrices of their clusters.
- * `vertex_count` is read only if `transfer` is NULL. You may destroy transfer and response afterwards. The
- * GLSL depends only on the number of light modes; in the paper's form, also on the numbers of clusters, ranks
- * and bounces. On failure *out is NULL and no OpenGL object is left.
+/* Creates an upload for a transfer and a response. It is black until you call nook_gl_update_transfer. With a
+ * transfer in the default form, or with `transfer` NULL and `vertex_count` vertices of your own, the upload
+ * holds vectors. With a transfer in the paper's form, the upload holds the compressed data of the vertices,
+ * and the GLSL function nook_transfer_vectors mixes the matrices of their clusters. `vertex_count` is read
+ * only if `transfer` is NULL. You may destroy transfer and response afterwards. The GLSL depends only on the
+ * number of light modes; in the paper's form, also on the numbers of clusters, ranks and bounces. On failure
+ * *out is NULL and no OpenGL object is left.
  * Context thread. Errors: INVALID_ARGUMENT (also if light modes or lobes of the paper's form and of the
  * response differ), UNSUPPORTED (a table exceeds the texture buffer of this OpenGL, which has at least 65,536
  * texels; vectors take vertex_count * vector_floats / 4 texels), GL, OUT_OF_MEMORY. */

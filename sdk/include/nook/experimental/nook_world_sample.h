@@ -1,5 +1,5 @@
-/* The CPU reference of the world pass. It computes the AO and the open share of light that the bodies of a
- * scene leave at points of the world. */
+/* The CPU reference of the world pass. It computes how much the bodies of a scene darken points in the world:
+ * the AO, and the open share of a light. */
 #ifndef NOOK_WORLD_SAMPLE_H
 #define NOOK_WORLD_SAMPLE_H
 
@@ -9,7 +9,7 @@
 extern "C" {
 #endif
 
-/* A caster of a model, in rest space. */
+/* A capsule with which a model darkens the world, in rest space. */
 typedef struct nook_model_capsule {
   nook_capsule capsule;
   uint32_t bone;
@@ -17,17 +17,17 @@ typedef struct nook_model_capsule {
   float ao_scale;
 } nook_model_capsule;
 
-/* Copies the world casters of a model. Set *count to the capacity of `out`; the call sets it to the number of
- * casters of the model. With `out` NULL, the call only sets *count. Any thread. Errors: INVALID_ARGUMENT (the
- * capacity is too small), UNSUPPORTED (the model was baked without casters; its instances then cast nothing,
- * and *count becomes 0). */
+/* Copies the capsules with which a model darkens the world. Set *count to the capacity of `out`; the call
+ * sets it to the number of capsules of the model. With `out` NULL, the call only sets *count. Any thread.
+ * Errors: INVALID_ARGUMENT (the capacity is too small), UNSUPPORTED (the model was baked without capsules;
+ * its instances then do not darken the world, and *count becomes 0). */
 NOOK_API nook_result nook_model_read_capsules(nook_model model, nook_model_capsule* out, uint32_t* count);
 
 typedef struct nook_world_sample_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Three floats for each point: the position in metres in world space, and the unit normal. A point whose
-   * position or normal is not finite counts as not occluded. */
+  /* Three floats for each point: the position in metres in world space, and the unit normal. If the position
+   * or normal of a point is not finite, the point gets AO 1. */
   const float* positions;
   const float* normals;
   uint32_t point_count;
@@ -36,8 +36,8 @@ typedef struct nook_world_sample_desc {
   /* Additional casters that are not in the scene; default none. */
   const nook_capsule* capsules;
   uint32_t capsule_count;
-  /* The instance that the points belong to; it does not darken them. Default 0: every instance darkens the
-   * points. */
+  /* The instance that the points belong to. This instance does not darken the points. Default 0: every
+   * instance darkens the points. */
   nook_instance_id receiver;
   /* The unit vector towards the light, and the full angle of its cone in degrees, above 0 and below 179.
    * Default 0 degrees: no light. */
@@ -57,14 +57,16 @@ static inline nook_result nook_world_sample_desc_init(nook_world_sample_desc* de
 }
 
 /* Computes the AO in [0, 1] and the open share of the light at each point. Use it for lightmaps, particles
- * and everything else that a pass cannot see. `scene` may be NULL if only desc->capsules cast. The call uses
- * the poses of the last nook_scene_set_pose; you need not call nook_scene_update. `ao` and `light` receive
- * point_count floats each; either may be NULL. An occluder with a receiver darkens only this receiver.
+ * and everything else that is not in the depth buffer of a pass. `scene` may be NULL if only desc->capsules
+ * cast. The call uses the poses of the last nook_scene_set_pose; you need not call nook_scene_update. `ao`
+ * and `light` receive point_count floats each; either may be NULL. An occluder with a receiver darkens only
+ * this receiver.
  *
  * A body is skipped for a block of points if it darkens each of them by less than the scene's cutoff_error.
- * The bound is (sum over its casters of r (r + 2 l / pi)) / d^2, with the scaled radii r, the lengths l, and
- * the distance d between the bounding spheres of the body and the block. So each skipped body changes the AO
- * of a point by at most cutoff_error. Free occluders and desc->capsules are never skipped.
+ * The bound of the darkening is (sum over the body's capsules of r (r + 2 l / pi)) / d^2. Here r is the
+ * scaled radius and l the length of a capsule, and d is the distance between the bounding spheres of the body
+ * and the block. So each skipped body changes the AO of a point by at most cutoff_error. Free occluders and
+ * desc->capsules are never skipped.
  *
  * The call does not allocate. It uses the parallel_for of the scene's context, if there is one. One at a
  * time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
