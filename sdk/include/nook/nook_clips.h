@@ -7,7 +7,8 @@
  * occluders, which the update evaluates at key points in the pose of the clip. On the GPU,
  * nook_gl_scene_update writes 1 - added to the buffers of such an instance. Your vertex shader decodes the AO
  * of the clip (nook_gl.h) and multiplies it by 1 - added. If the CPU updates the scene instead, turn off
- * NOOK_TERM_SELF with nook_scene_set_terms (experimental/nook_debug.h); nook_scene_read then gives 1 - added. */
+ * NOOK_TERM_SELF with nook_scene_set_terms (experimental/nook_debug.h); nook_scene_read then gives 1 - added.
+ */
 #ifndef NOOK_CLIPS_H
 #define NOOK_CLIPS_H
 

@@ -175,7 +175,7 @@ typedef struct nook_gl_ao_target {
    * attributes; each value then occupies 4 bytes. Needs compute shaders. 0: tightly packed; the bytes of an
    * instance are padded to a multiple of 4, and the padding is overwritten. */
   uint32_t stride;
-  /* The width of `texture`. Required on OpenGL ES 3.0 and WebGL 2; elsewhere, 0 lets Nook query it. */
+  /* The texture's width in texels. Required on OpenGL ES 3.0 and WebGL 2; elsewhere, 0 lets Nook query it. */
   uint32_t texture_width;
 } nook_gl_ao_target;
 
@@ -288,7 +288,8 @@ typedef struct nook_gl_frame_desc {
    * (default): no limit. Pixels are also sky if their depth is not finite, is <= 0 in a perspective
    * projection, or is hardware depth at the far plane. */
   float sky_depth;
-  /* For logarithmic depth: C in 1/metres, > 0, default 1; n in metres, >= 0, default 0; f in metres, > n. */
+  /* For logarithmic depth: C in 1/metres, > 0, default 1; n in metres, >= 0, default 0; f in metres, > n,
+   * required. */
   float depth_log_scale, depth_log_near, depth_log_far;
   /* A texture of normals. 0 (default): the pass reconstructs normals from depth. */
   uint32_t normal_texture;
@@ -349,15 +350,14 @@ typedef struct nook_gl_upload_info {
   /* The number of textures, at most 16. A draw needs as many texture units. */
   uint32_t texture_count;
   nook_gl_upload_texture textures[16];
-  /* The memory of all textures. On OpenGL ES, a 2D texture of 2048 texels per row replaces a buffer. */
+  /* The bytes of all textures. On OpenGL ES, 2D textures of 2048 texels per row replace texture buffers. */
   uint64_t bytes;
   /* GLSL 3.30 and GLSL ES 3.00 text, without #version and precision lines. It is valid until you update or
    * destroy the upload. All names in Nook's GLSL begin with nook_, Nook or NOOK_. */
   const char* glsl;
   /* The name of a uniform for constants, or NULL: nook_grid_frame for a grid, nook_clip_vec4s for clips. */
   const char* constant;
-  /* The values: constant_vec4s * 4 floats for glUniform4fv; if constant_vec4s is 0, an int for
-   * glUniform1i. */
+  /* Values for glUniform4fv, constant_vec4s * 4 floats; or an int for glUniform1i if constant_vec4s is 0. */
   float constant_values[16];
   uint32_t constant_vec4s;
   /* 1: the grid has walls, and each surface uses only the probes on its side of a wall. */
