@@ -229,11 +229,11 @@ typedef int32_t nook_bake_preset;
 enum {
   /* Generated whole-body poses, which need no clip. */
   NOOK_BAKE_POSES_AUTO = 0,
-  /* Poses that rotate only one joint, on a grid over +-45 degrees. Do not ship such a model. */
+  /* For comparisons only: poses that rotate a single joint, on a grid over +-45 degrees. */
   NOOK_BAKE_POSES_SINGLE_JOINT = 1,
   /* The character's clips. */
   NOOK_BAKE_POSES_CLIPS = 2,
-  /* The poses of AUTO and CLIPS, and as many variants as clip poses: mirrored, mixed and blended. */
+  /* The poses of AUTO and CLIPS, and as many variants (mirrored, mixed, blended) as there are clip poses. */
   NOOK_BAKE_POSES_ALL = 3,
   /* Only the poses in extra_poses_3x4. */
   NOOK_BAKE_POSES_EXTRA = 4
@@ -304,7 +304,7 @@ static inline nook_result nook_bake_start_character(const nook_bake_character_de
 
 /* ---- Bent normals ----
  *
- * Each vertex gets two vectors that describe which directions its body occludes. The bake computes these
+ * Each vertex gets two vectors that describe which directions the body occludes. The bake computes these
  * vectors by ray tracing in some poses of the model (docs/character.md). */
 
 typedef struct nook_bake_bent_desc {
@@ -359,7 +359,8 @@ typedef struct nook_bake_clips_desc {
   /* The root mean square AO error over vertices and frames that the bake aims for, 1e-4 to 1; default 0.015.
    * The bake stores as many AO modes (basis vectors) as it needs for this error. */
   float max_error;
-  /* The maximum bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes beyond it are dropped. */
+  /* The maximum bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes beyond this limit are
+   * dropped. */
   float max_bytes;
   /* The maximum number of AO modes, a multiple of 4 from 4 to 256; default 96. */
   uint32_t max_modes;

@@ -195,8 +195,7 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
  * the receiver's hemisphere. All spheres of a linked instance share one rho; the ground uses the rho of the
  * half-space below its plane. The result is a colour for each vertex. If your shader computes albedo / pi * E
  * * AO, replace AO by this colour; E is the irradiance of the same lobes. Under constant light, the colour is
- * equal to AO. Updates on the CPU and on the GPU compute this colour; nook_gl.h shows how a shader uses
- * it. */
+ * equal to AO. All updates compute this colour; nook_gl.h shows how a shader uses it. */
 
 /* Sets the light of an instance for the next updates. Pass at most NOOK_PROBE_MAX_FUNCTIONS lobes, such as
  * from nook_probe_read_lobes at the instance's position; the call copies them. `lobe_count` 0 or `lobes` NULL

@@ -50,8 +50,7 @@ NOOK_API nook_result nook_clips_describe(nook_clips clips, nook_clips_info* info
 
 typedef struct nook_clip_info {
   uint32_t struct_size;
-  /* Frame first_frame + i is the pose at duration_s * i / (frame_count - 1). If the duration is 0, there is
-   * one frame. */
+  /* Frame first_frame + i is the pose at duration_s * i / (frame_count - 1); one frame if duration_s is 0. */
   uint32_t first_frame;
   uint32_t frame_count;
   float duration_s;

@@ -67,8 +67,7 @@ typedef struct nook_gl_desc {
   nook_gl_state_mode state_mode;
   /* 1, for development: each call fails with NOOK_ERROR_GL unless the OpenGL context of nook_gl_create is
    * current, and a frame in which no pixel shows a surface is logged. Both checks query OpenGL. 0 (default):
-   * if a wrong context is current, a call may return NOOK_OK and do nothing, or change your OpenGL
-   * objects. */
+   * if a wrong context is current, a call may return NOOK_OK and do nothing, or change your objects. */
   int32_t debug;
 } nook_gl_desc;
 static inline nook_result nook_gl_desc_init(nook_gl_desc* desc) {
@@ -169,7 +168,7 @@ typedef struct nook_gl_ao_target {
   uint32_t texture;
   /* The offset of the first value. In a buffer: bytes, a multiple of 4; in a texture: texels. */
   uint64_t offset;
-  /* The distance between the first values of two instances, in the same units. Only read if count > 1. */
+  /* If count > 1: the distance between the first values of consecutive instances, in the same units. */
   uint64_t instance_stride;
   /* Bytes between the starts of two values in a buffer, a multiple of 4, for AO interleaved with other vertex
    * attributes; each value then occupies 4 bytes. Needs compute shaders. 0: tightly packed; the bytes of an
@@ -230,8 +229,8 @@ enum { NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE = 0, NOOK_CLIP_SPACE_ZERO_TO_ONE = 1 
 typedef int32_t nook_clip_space;
 
 /* How a pass combines its AO, s, with AO that you draw into a texture yourself (G-buffer AO). The red channel
- * of your texture, c, is AO of another kind, such as from nook_gl_scene_update, and 1 where there is none.
- * The green channel, w, is a weight. */
+ * of your texture, c, holds AO of another kind, such as from nook_gl_scene_update; set it to 1 where you have
+ * none. The green channel, w, is a weight. */
 enum {
   /* The result is s. */
   NOOK_GBUFFER_AO_NONE = 0,
@@ -447,9 +446,9 @@ NOOK_API nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe prob
  *         nook_material_occlusion_anisotropic(uv, dFdx(uv), dFdy(uv), view, fetches));
  * Each additional fetch of `fetches` costs further_decode_fetches texel fetches (nook_material_info). The
  * `modes` of a neural material are values inside its network, so you cannot add or mix them. Silhouettes of
- * the meso-structure need two passes over the same triangles. In the first, draw pixels with alpha = 1 and
- * discard the others. In the second, blend pixels with 0 < alpha < 1 by alpha, with the depth test but no
- * depth writes. */
+ * the meso-structure need two passes over the same triangles. In the first pass, draw pixels with alpha = 1
+ * and discard the others. In the second pass, blend pixels with 0 < alpha < 1 by alpha, with the depth test
+ * but no depth writes. */
 
 /* Uploads a material, which you may destroy afterwards, as GL_TEXTURE_2D_ARRAYs. Materials with the same
  * sizes and visibility mapping have the same GLSL and may share a program; a neural material needs its own

@@ -54,7 +54,7 @@ typedef struct nook_material_desc {
    * only the VOTF is in blocks. */
   nook_material_blocks blocks;
   /* The first whole_light_modes light modes are not stored in blocks, because blocks cause the largest errors
-   * in these modes. Rounded up to a multiple of 4; 0 to 3,072, default 4. */
+   * in these modes. The number is rounded up to a multiple of 4; 0 to 3,072, default 4. */
   int32_t whole_light_modes;
 } nook_material_desc;
 static inline nook_result nook_material_desc_init(nook_material_desc* desc) {
@@ -75,7 +75,7 @@ NOOK_API nook_result nook_material_load(nook_context context, const void* bytes,
 /* Releases your reference and sets *material to NULL. Any thread. */
 NOOK_API void nook_material_destroy(nook_material* material);
 
-/* One clustered tensor. The symbols are those of the paper. */
+/* One clustered tensor. The symbols are as in the paper. */
 typedef struct nook_material_tensor {
   /* R_l is the rank of the light mode (1 for a VOTF). R_v is the rank of the view mode in each cluster. */
   uint32_t rank_light, rank_view;

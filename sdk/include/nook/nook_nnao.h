@@ -165,7 +165,7 @@ typedef struct nook_nnao_info {
   /* 1: a compute shader evaluates the network; 0: a fragment shader evaluates it. */
   int32_t compute;
   int32_t bent_normals;
-  /* GLSL 3.30 and GLSL ES 3.00 text, without #version and precision lines, for your lighting. Directions are
+  /* GLSL 3.30 and GLSL ES 3.00 text for your lighting. It has no #version and precision lines. Directions are
    * unit vectors in one space, roughness is perceptual (the GGX width is its square):
    *     vec3 nook_nnao_bent_normal(vec4 texel)               view space, of a texel with bent normals
    *     float nook_nnao_cone_cosine(float ao)                cosine of the open cone's half angle

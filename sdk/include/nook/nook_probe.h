@@ -24,7 +24,7 @@ extern "C" {
 enum {
   /* Lobes, and an ambient term if you set nook_probe_fit_desc.ambient; 3 floats for each. */
   NOOK_PROBE_BASIS_LOBES = 0,
-  /* Real spherical harmonics (SH) of bands 0 to order, orthonormal over the sphere. */
+  /* Real spherical harmonics (SH) of bands 0 to `order`, orthonormal over the sphere. */
   NOOK_PROBE_BASIS_SH = 1
 };
 typedef int32_t nook_probe_basis;

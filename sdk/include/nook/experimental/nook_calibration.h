@@ -18,10 +18,10 @@ extern "C" {
 
 /* Writes the pose of an instance as one record. Pass `bytes` as NULL to get the size, which is the same for
  * all poses of a model. A pose file is a sequence of records, from any number of bodies; the baker uses the
- * records whose bones match its character. All numbers in a record are little-endian. A record consists of 8
- * bytes "NOOKPOSE"; the version, which is 1, in 4 bytes; the number of bones in 4 bytes; the XXH64 hash of
- * the bones' names in 8 bytes; and 12 floats for each bone. The hash covers all names, each followed by a
- * zero byte. The 12 floats are the matrix from rest space to world space: three rows of rotation and scale |
+ * records whose bones match its character. All numbers in a record are little-endian. A record begins with
+ * the 8 bytes "NOOKPOSE". The version, which is 1, and the number of bones follow in 4 bytes each. The next 8
+ * bytes are the XXH64 hash of all bone names, each followed by a zero byte. At the end, there are 12 floats
+ * for each bone. These are the matrix from rest space to world space: three rows of rotation and scale |
  * translation.
  * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (also if *size is too small; *size is
  * then the required size), INVALID_HANDLE. */

@@ -11,8 +11,8 @@
 namespace nook {
 inline namespace wrapper {
 
-// Turns cube maps that you render into probes of one or two Uploads. Call every function and the destructor
-// on the context thread, as nook_capture.h documents.
+// Computes probes from cube maps that you render, and writes them into one or two Uploads. Call every
+// function and the destructor on the context thread, as nook_capture.h documents.
 class GlProbeCapture : public Unique<nook_gl_capture, nook_gl_capture_destroy> {
  public:
   // Returns the defaults. Change the fields as you need.
@@ -23,7 +23,7 @@ class GlProbeCapture : public Unique<nook_gl_capture, nook_gl_capture_destroy> {
   }
   GlProbeCapture(const Gl& gl, const nook_gl_capture_desc& desc) : Unique(create(gl, desc)) {}
 
-  // If `restart` is true, the average starts again with this map.
+  // Adds a cube map to the probe `index`. If `restart` is true, the average starts again with this map.
   void add(std::uint32_t index, std::uint32_t cube_map, bool restart = false) {
     check(nook_gl_capture_add(get(), index, cube_map, restart));
   }

@@ -1,4 +1,4 @@
-// C++17 wrappers of shapes for debug drawing: nook_debug.h.
+// C++17 wrappers of the functions for debug drawing: nook_debug.h.
 #ifndef NOOK_DEBUG_HPP
 #define NOOK_DEBUG_HPP
 
@@ -25,7 +25,7 @@ inline void set_terms(Scene& scene, std::uint32_t terms) {
 
 namespace detail {
 
-// The first call gets the count, the second call fills the elements.
+// Calls a read function twice: the first call gets the count, the second call fills the elements.
 template <class Element>
 std::vector<Element> read_all(nook_result (*read)(nook_scene, nook_instance_id, Element*, std::uint32_t*),
                               const Scene& scene, nook_instance_id id) {
@@ -38,17 +38,17 @@ std::vector<Element> read_all(nook_result (*read)(nook_scene, nook_instance_id, 
 
 }  // namespace detail
 
-// The proxy spheres of an instance in its pose.
+// Returns the proxy spheres of an instance in its pose.
 inline std::vector<nook_scene_sphere> posed_spheres(const Scene& scene, nook_instance_id id) {
   return detail::read_all(nook_scene_read_spheres, scene, id);
 }
 
-// The key points of an instance in its pose.
+// Returns the key points of an instance in its pose.
 inline std::vector<nook_scene_key_point> posed_key_points(const Scene& scene, nook_instance_id id) {
   return detail::read_all(nook_scene_read_key_points, scene, id);
 }
 
-// The instances that darken an instance by links.
+// Returns the instances that darken an instance by links.
 inline std::vector<nook_instance_id> linked_casters(const Scene& scene, nook_instance_id id) {
   return detail::read_all(nook_scene_read_links, scene, id);
 }

@@ -1,4 +1,4 @@
-// C++17 wrapper of poses on the GPU: nook_gl_poses.h. Both functions belong to the context thread.
+// C++17 wrapper of poses on the GPU: nook_gl_poses.h. Call both functions on the context thread.
 #ifndef NOOK_GL_POSES_HPP
 #define NOOK_GL_POSES_HPP
 
@@ -11,7 +11,7 @@
 namespace nook {
 inline namespace wrapper {
 
-// Sets the poses of a crowd of one model; struct_size of poses is set here.
+// Sets the poses of a crowd of one model. The function sets poses.struct_size.
 inline void set_poses(const Gl& gl, Scene& scene, nook_gl_poses poses,
                       const std::vector<nook_gl_instance_pose>& instances) {
   poses.struct_size = sizeof poses;
@@ -19,7 +19,7 @@ inline void set_poses(const Gl& gl, Scene& scene, nook_gl_poses poses,
                                 static_cast<std::uint32_t>(instances.size())));
 }
 
-// Returns the bones of an instance, three rows of four floats for each. It waits for the GPU.
+// Returns the pose of an instance, three rows of four floats for each bone. The call waits for the GPU.
 inline std::vector<float> read_pose(const Gl& gl, const Scene& scene, nook_instance_id instance,
                                     std::uint32_t bone_count) {
   std::vector<float> bones(std::size_t{12} * bone_count);

@@ -1,4 +1,4 @@
-// C++17 wrapper of many poses of one model: nook_poses.h.
+// C++17 wrapper for the AO of many poses: nook_poses.h.
 #ifndef NOOK_POSES_HPP
 #define NOOK_POSES_HPP
 
@@ -13,7 +13,7 @@ namespace nook {
 inline namespace wrapper {
 
 // Returns the AO of all vertices in the first pose, then in the second pose, and so on. Initialise `first`
-// with pose_desc(), and the settings with scene_desc().
+// with pose_desc(), and `settings` with scene_desc().
 inline std::vector<float> evaluate_poses(const CharacterModel& model, const nook_pose_desc& first,
                                          std::uint32_t pose_count, std::size_t pose_stride = 0,
                                          const float* plane_xyzd = nullptr,

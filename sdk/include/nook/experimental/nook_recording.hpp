@@ -26,7 +26,7 @@ inline nook_nnao_recording_desc nnao_recording_desc() {
 class Recording : public Unique<nook_nnao_recording, nook_nnao_recording_destroy> {
  public:
   Recording() = default;
-  // Takes over a handle, for example from nook_nnao_record.
+  // Takes ownership of a handle, for example from nook_nnao_record.
   explicit Recording(nook_nnao_recording handle) noexcept : Unique(handle) {}
   Recording(const Context& context, const nook_nnao_recording_desc& desc) : Unique(create(context, desc)) {}
   Recording(const Context& context, const void* bytes, std::size_t size)
@@ -47,8 +47,8 @@ class Recording : public Unique<nook_nnao_recording, nook_nnao_recording_destroy
     return bytes;
   }
   // Writes a new temporary file in the same folder and then renames it, so that no incomplete file can
-  // appear. If a file is replaced, its permissions are kept. If the path is a link, the link stays and its
-  // target is replaced. Throws std::runtime_error with a text that names the file.
+  // appear. If the file exists, the new file keeps its permissions. If the path is a symbolic link, the
+  // function replaces the target of the link. Throws std::runtime_error with a text that names the file.
   void write(const std::filesystem::path& file) const {
     const std::vector<unsigned char> bytes = save();
     std::error_code error;

@@ -214,13 +214,14 @@ typedef struct nook_nnao_timings {
   uint32_t struct_size;
   /* 0: no frame is finished yet, or the pass has no timers; all other fields are then 0. */
   int32_t valid;
-  /* Computing linear depth, and normals for a network of the paper's form. */
+  /* This stage computes linear depth, and normals for a network of the paper's form. */
   float normals;
-  /* Evaluating the network, detecting edges, reading or reconstructing normals, and averaging over frames. */
+  /* These stages evaluate the network, detect edges, read or reconstruct normals, and average over frames. */
   float occlusion;
-  /* Filtering at half resolution. At full resolution, `resolve` includes the time of the filter. */
+  /* The stages filter_x and filter_y at half resolution. At full resolution, `resolve` includes the
+   * filter. */
   float blur;
-  /* Filtering or upsampling, combining with G-buffer AO, and writing the target. */
+  /* This stage filters or upsamples, applies G-buffer AO, and writes the target. */
   float resolve;
   float total;
 } nook_nnao_timings;

@@ -36,7 +36,7 @@ class NnaoStages : public Unique<nook_nnao_stages, nook_nnao_stages_destroy> {
     check(nook_nnao_stages_describe_image(get(), image, &info));
     return info;
   }
-  // Pass `earlier` as null after a cut.
+  // Pass nullptr as `earlier` after a cut.
   nook_nnao_frame_values frame(const nook_gl_frame_desc& frame, const nook_nnao_frame_desc& desc,
                                const nook_gl_frame_desc* earlier = nullptr, std::uint32_t number = 0,
                                std::uint32_t view = 0) const {
@@ -54,7 +54,7 @@ class NnaoStages : public Unique<nook_nnao_stages, nook_nnao_stages_destroy> {
   }
 };
 
-// The texels of a table of clips. Rows follow each other without gaps.
+// Returns the texels of a table of clips. Rows follow each other without gaps.
 inline std::vector<std::uint8_t> clips_table(const Clips& clips, nook_clips_table table, std::uint32_t& width,
                                              std::uint32_t& height) {
   std::size_t size = 0;

@@ -23,7 +23,7 @@ class Synthesis : public Unique<nook_synthesis, nook_synthesis_destroy> {
     check(nook_synthesis_describe(get(), &info));
     return info;
   }
-  // Takes and returns two floats for each point.
+  // `plane_uvs` and `material_uvs` hold two floats for each point.
   void material_uvs(const float* plane_uvs, std::uint32_t count, float* material_uvs) const {
     check(nook_synthesis_material_uvs(get(), plane_uvs, count, material_uvs));
   }

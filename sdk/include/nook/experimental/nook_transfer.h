@@ -71,9 +71,9 @@ typedef struct nook_transfer_info {
   int32_t has_holes;
   /* Bytes of the reflected light (bounces) in memory, vertex_count * bounces * 18. */
   uint64_t indirect_bytes;
-  /* NOOK_FORM_DEFAULT: a share for each vertex and lobe; works with any material. NOOK_FORM_PAPER: matrices
-   * from lobes to the light modes of one material, compressed by CTA. An update after a change of the light
-   * takes less work. */
+  /* NOOK_FORM_DEFAULT has a share for each vertex and lobe, and works with any material. NOOK_FORM_PAPER has
+   * matrices from lobes to the light modes of one material, compressed by CTA. It takes less work to update
+   * after a change of the light. */
   nook_form form;
   /* For the paper's form, the number of light modes of the material that it was baked with; otherwise 0. */
   uint32_t light_modes;
@@ -264,8 +264,8 @@ NOOK_API nook_result nook_transfer_response_describe(nook_transfer_response resp
 typedef struct nook_transfer_vectors_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* The baked shape. NULL (default): vertices without baked visibility, which receive all light above their
-   * horizon. This is enough for a prop under a probe. */
+  /* The baked shape. If NULL (default), the vertices have no baked visibility and receive all light above
+   * their horizon. This is enough for a prop under a probe. */
   nook_transfer transfer;
   /* lobe_count x RGB from nook_transfer_light_project, finite numbers whose magnitude is at most 1e22;
    * required. `lobe_count` must be the same as in the response and the transfer. */

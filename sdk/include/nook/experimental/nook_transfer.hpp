@@ -25,7 +25,8 @@ class Transfer : public Unique<nook_transfer, nook_transfer_destroy> {
     check(nook_transfer_describe(get(), &info));
     return info;
   }
-  // Throws unless the mesh and the material are the ones that were baked. Either may be NULL.
+  // Throws if the mesh or the material differs from the bake. Pass NULL for the one that you do not want to
+  // check.
   void check_baked(const nook_transfer_mesh_desc* mesh, const Material* material) const {
     check(nook_transfer_check(get(), mesh, material ? material->get() : nullptr));
   }
@@ -49,7 +50,7 @@ class TransferLight : public Unique<nook_transfer_light, nook_transfer_light_des
   TransferLight(const Context& context, const nook_transfer_light_desc& desc)
       : Unique(create(context, desc)) {}
 
-  // light_from_shape is a rotation of 9 floats, or NULL. Returns lobe_count x RGB.
+  // `light_from_shape` is a rotation matrix of 9 floats, or NULL. Returns lobe_count x RGB.
   std::vector<float> project(std::uint32_t lobe_count, const float* light_from_shape = nullptr) const {
     std::vector<float> amplitudes(std::size_t(3) * lobe_count);
     check(nook_transfer_light_project(get(), lobe_count, light_from_shape, amplitudes.data(), nullptr));
@@ -108,15 +109,15 @@ inline Upload upload_transfer(const Gl& gl, const TransferResponse& response, st
   return Upload(handle);
 }
 
-// Creates an upload for a transfer. It holds vectors, or in the paper's form the vertices and the matrices of
-// their clusters.
+// Creates an upload for a transfer. In the default form, the upload holds vectors. In the paper's form, it
+// holds compressed vertices and the matrices of their clusters.
 inline Upload upload_transfer(const Gl& gl, const Transfer& transfer, const TransferResponse& response) {
   nook_gl_upload handle = nullptr;
   check(nook_gl_upload_transfer(gl.get(), transfer.get(), response.get(), 0, &handle));
   return Upload(handle);
 }
 
-// Uploads vectors, or in the paper's form the amplitudes of the lobes.
+// Sets the light of an upload. `values` are the vectors, or in the paper's form the amplitudes of the lobes.
 inline void update_transfer(const Upload& upload, const std::vector<float>& values) {
   check(nook_gl_update_transfer(upload.get(), values.data(), values.size()));
 }

@@ -11,7 +11,8 @@
 namespace nook {
 inline namespace wrapper {
 
-// Returns the casters of a model. Throws UNSUPPORTED if the model was baked without casters.
+// Returns the capsules with which a model darkens the world. Throws UNSUPPORTED if the model was baked
+// without capsules.
 inline std::vector<nook_model_capsule> world_casters(const CharacterModel& model) {
   std::uint32_t count = NOOK_WORLD_MAX_CASTERS;
   std::vector<nook_model_capsule> casters(count);
