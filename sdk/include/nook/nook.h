@@ -264,7 +264,7 @@ static inline nook_result nook_context_desc_init(nook_context_desc* desc) {
   return nook_desc_init(NOOK_DESC_CONTEXT, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Creates a context. You need it to create models, scenes and GL objects. On failure *out is NULL.
+/* Creates a context. You need it to create models, scenes and OpenGL objects. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (the build or the processor does not support desc->isa;
  * the message lists the available sets), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_context_create(const nook_context_desc* desc, nook_context* out);

@@ -276,8 +276,8 @@ enum {
   NOOK_TRANSFORM_ROWS_3X4 = 0,
   /* 16 floats: four rows, the last one 0 0 0 1, for column vectors, such as Ogre::Matrix4. */
   NOOK_TRANSFORM_ROWS_4X4 = 1,
-  /* 16 floats: four columns, the last one the translation and 1: glTF, glm, OpenGL. Also matrices of
-   * libraries with row vectors (DirectXMath, osg::Matrixf), as they are in memory. */
+  /* 16 floats: four columns, the last one the translation and 1: glTF, glm, OpenGL. Also for matrices of
+   * libraries with row vectors (DirectXMath, osg::Matrixf); do not transpose them. */
   NOOK_TRANSFORM_COLUMNS_4X4 = 2,
   /* 12 floats: four columns of three numbers, the last one the translation. */
   NOOK_TRANSFORM_COLUMNS_4X3 = 3,
@@ -395,7 +395,8 @@ typedef struct nook_skin_info {
 } nook_skin_info;
 
 /* Describes a skin; `skin` must be less than nook_model_info.skin_count. Skins that no mesh uses are left
- * out, so compare file_index. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
+ * out, so identify a skin by its file_index. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind
+ * data). */
 NOOK_API nook_result nook_model_describe_skin(nook_model model, uint32_t skin, nook_skin_info* info);
 
 typedef struct nook_check_vertex_info {
@@ -464,7 +465,7 @@ typedef struct nook_pose_check_info {
   /* The largest and the root mean square distance between your vertices and the model's, as shares of the
    * model's bounding radius times the scale of `place_3x4`. */
   float max_error, rms_error;
-  /* The bone with the largest weight at the farthest vertex. */
+  /* The bone with the largest weight at the vertex with the largest distance. */
   uint32_t worst_bone;
   /* For NOOK_POSE_FAULT_NO_BIND and NOOK_POSE_FAULT_SKIN: the index of the skin that fits, otherwise 0. */
   uint32_t fitting_skin;

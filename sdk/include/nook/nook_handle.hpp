@@ -4,7 +4,7 @@
 #ifndef NOOK_HANDLE_HPP
 #define NOOK_HANDLE_HPP
 
-// __cpp_exceptions is the standard's macro; _CPPUNWIND is Visual C++'s.
+// The C++ standard defines the macro __cpp_exceptions; Visual C++ defines _CPPUNWIND.
 #if !defined(__cpp_exceptions) && !defined(_CPPUNWIND)
 #error "Nook's .hpp headers throw exceptions, which are off here: call the C headers (nook.h) or turn them on"
 #endif

@@ -116,8 +116,9 @@ NOOK_API nook_result nook_probe_fit_add_samples(nook_probe_fit fit, const float*
 
 /* Adds the samples of the fit `other`, such as one from another thread, to `fit`. The descriptors of both
  * fits must be equal. With least squares, the result is the same as one fit of all samples, up to rounding.
- * With running averages, the result is the mean of both solutions, weighted by their total weights. `other`
- * is not changed. No other thread may use the fits. One at a time. Errors: INVALID_ARGUMENT. */
+ * With running averages, the result is the mean of both solutions, weighted by the fits' total sample
+ * weights. `other` is not changed. No other thread may use the fits. One at a time. Errors:
+ * INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_merge(nook_probe_fit fit, nook_probe_fit other);
 
 /* Removes all samples. One at a time. Errors: INVALID_ARGUMENT. */

@@ -26,9 +26,9 @@ extern "C" {
  *
  * After you have drawn depth, one call darkens the whole screen by the capsules of a scene, including
  * capsules outside the screen. Pass the scene, and the same frame as to the screen pass (nook_nnao.h). The
- * pass runs on every tier and follows the state_mode of nook_gl_desc. To combine it with the screen pass,
- * draw the AO of characters into the red channel of the G-buffer AO, and 1 into its green channel. The
- * texture of the world pass then holds the complete AO (for ways without a mask, see docs/guide/world.md):
+ * pass runs on every tier and uses the state_mode of nook_gl_desc. To combine it with the screen pass, draw
+ * the AO of characters into the red channel of the G-buffer AO, and 1 into its green channel. The texture of
+ * the world pass then holds the complete AO (for ways without a mask, see docs/guide/world.md):
  *     frame.gbuffer_ao = NOOK_GBUFFER_AO_EXCLUDE;  frame.gbuffer_ao_texture = characters;
  *     nook_nnao_render(nnao, &frame, &nnao_frame);
  *     world_frame.ao_texture = nnao_info.texture;
@@ -102,9 +102,10 @@ typedef struct nook_world_frame_desc {
    * Without lobes (default), all three channels are AO. */
   const nook_lobe* lobes;
   uint32_t lobe_count;
-  /* The light whose open share a coloured pass writes to alpha. Set the unit vector towards it in world
-   * space, and the full angle of its cone in degrees, above 0 and below 179. Alpha is 1 where G-buffer AO
-   * replaces the result; `intensity`, `power` and `combine` do not change it. Default 0 degrees: no light. */
+  /* The light whose open share a coloured pass writes to alpha. Set the unit vector towards the light in
+   * world space, and the full angle of its cone in degrees, above 0 and below 179. Alpha is 1 where G-buffer
+   * AO replaces the result; `intensity`, `power` and `combine` do not change it. Default 0 degrees: no
+   * light. */
   float light_axis[3];
   float light_degrees;
   /* A capsule farther than this from a point does not shadow this point. Default 0: 30 metres. */

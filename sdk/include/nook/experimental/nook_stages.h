@@ -140,7 +140,8 @@ typedef struct nook_nnao_stage_info {
    * nook_nnao_frame_values.drawn_stages says which stages to draw. */
   const char* name;
   const char* fragment_shader;
-  /* 1: the viewport is nook_nnao_frame_values.viewport; 0: it is surface_width x surface_height at (0, 0). */
+  /* 1: the viewport is nook_nnao_frame_values.viewport; 0: the viewport is surface_width x surface_height
+   * pixels at (0, 0). */
   int32_t draws_viewport;
   /* 1: the stage reads binding 1. */
   int32_t reads_network;

@@ -98,8 +98,9 @@ typedef struct nook_transfer_mesh_desc {
   const void* next;
   /* Required. */
   uint32_t vertex_count;
-  /* 3, 3, 4 and 2 floats for each vertex; arrays that are NULL (default) are not compared. The values must be
-   * bit-identical to the values in the bake, in the space of the file's scene. */
+  /* For each vertex, `positions` and `normals` hold 3 floats, `tangents` 4 and `uvs` 2. Arrays that are NULL
+   * (default) are not compared. The values must be bit-identical to the values in the bake, in the space of
+   * the file's scene. */
   const float* positions;
   const float* normals;
   const float* tangents;
@@ -206,11 +207,11 @@ typedef struct nook_transfer_projection_info {
  * means no rotation.
  *
  * The first call with a lobe_count factors a Gram matrix, which takes about lobe_count^3 / 6 multiply-adds.
- * The context keeps the matrix until it is destroyed, in lobe_count^2 * 4 bytes (25 MiB at 2562). Later calls
- * with the same lobe_count only solve with this matrix. `info` may be NULL; filling it takes about as long as
- * the projection. It must be NULL for a light from a direction, because the square of such a light has no
- * integral. The call allocates with your allocator. Any thread. Errors: INVALID_ARGUMENT (also if
- * light_from_shape is not a rotation to 1e-3), OUT_OF_MEMORY. */
+ * The context keeps the matrix until you destroy the context. The matrix takes lobe_count^2 * 4 bytes (25 MiB
+ * at 2562 lobes). Later calls with the same lobe_count only solve with this matrix. `info` may be NULL;
+ * filling it takes about as long as the projection. It must be NULL for a light from a direction, because the
+ * square of such a light has no integral. The call allocates with your allocator. Any thread. Errors:
+ * INVALID_ARGUMENT (also if light_from_shape is not a rotation to 1e-3), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_light_project(nook_transfer_light light, uint32_t lobe_count,
                                                  const float* light_from_shape, float* amplitudes,
                                                  nook_transfer_projection_info* info);
@@ -285,10 +286,10 @@ static inline nook_result nook_transfer_vectors_desc_init(nook_transfer_vectors_
 /* Writes the vectors of `vertex_count` vertices under a light. Call this function when the light changes or
  * the shape rotates. `stride_floats` is the number of floats from one vertex to the next; 0 means
  * vector_floats of nook_transfer_response_info. The call uses the context's parallel_for if you set one; the
- * result does not depend on it. It allocates 16 bytes per lobe; in the paper's form, 3 * light_modes * vertex
- * rank floats per cluster (2.2 KiB at 16 modes); and without a transfer, the frames of the vertices. Any
- * thread. Errors: INVALID_ARGUMENT (also if in the paper's form the response belongs to another material),
- * OUT_OF_MEMORY. */
+ * result does not depend on it. The call allocates 16 bytes per lobe. In the paper's form, it also allocates
+ * 3 * light_modes * vertex rank floats per cluster (2.2 KiB at 16 modes). Without a transfer, it also
+ * allocates the frames of the vertices. Any thread. Errors: INVALID_ARGUMENT (also if in the paper's form the
+ * response belongs to another material), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_transfer_read_vectors(nook_transfer_response response,
                                                 const nook_transfer_vectors_desc* desc, float* vectors,
                                                 uint32_t vertex_count, uint32_t stride_floats);
