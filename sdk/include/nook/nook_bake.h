@@ -359,8 +359,7 @@ typedef struct nook_bake_clips_desc {
   /* The root mean square AO error over vertices and frames that the bake aims for, 1e-4 to 1; default 0.015.
    * The bake stores as many AO modes (basis vectors) as it needs for this error. */
   float max_error;
-  /* The maximum bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes beyond this limit are
-   * dropped. */
+  /* The maximum bytes per frame and vertex, 1e-4 to 100; default 0.25. Modes over this limit are dropped. */
   float max_bytes;
   /* The maximum number of AO modes, a multiple of 4 from 4 to 256; default 96. */
   uint32_t max_modes;

@@ -395,8 +395,7 @@ typedef struct nook_skin_info {
 } nook_skin_info;
 
 /* Describes a skin; `skin` must be less than nook_model_info.skin_count. Skins that no mesh uses are left
- * out, so identify a skin by its file_index. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind
- * data). */
+ * out; file_index identifies a skin. Any thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (no bind data). */
 NOOK_API nook_result nook_model_describe_skin(nook_model model, uint32_t skin, nook_skin_info* info);
 
 typedef struct nook_check_vertex_info {

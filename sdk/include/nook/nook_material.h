@@ -102,8 +102,7 @@ typedef struct nook_material_info {
   /* All fields are 0 without a VOTF. */
   nook_material_tensor votf;
   /* The numbers of texel fetches and scalar multiply-adds of nook_material_decode. A filtered fetch counts as
-   * one fetch, and a mode in blocks counts as two. A relief adds at most one fetch per plane of its ray
-   * march. */
+   * one, and a mode in blocks as two fetches. A relief adds at most one fetch per plane of its ray march. */
   uint32_t decode_fetches, decode_multiply_adds;
   /* The same numbers for nook_material_radiance. */
   uint32_t light_fetches, light_multiply_adds;

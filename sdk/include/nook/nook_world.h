@@ -11,8 +11,8 @@
  * the light. For each channel, rho is the mean radiance behind the capsule divided by the hemisphere's mean
  * radiance. So a capsule in front of a bright window darkens more than a capsule in front of a wall. Under
  * constant light the result is AO. The pass uses SH bands 0 to 2 for fewer than 24 lobes, and bands 0 to 4
- * from 24 lobes on. nook_world_sample in experimental/nook_world_sample.h computes the same values at points
- * on the CPU. */
+ * from 24 lobes on. nook_world_sample in experimental/nook_world_sample.h computes the same values on the
+ * CPU. */
 #ifndef NOOK_WORLD_H
 #define NOOK_WORLD_H
 
@@ -104,8 +104,7 @@ typedef struct nook_world_frame_desc {
   uint32_t lobe_count;
   /* The light whose open share a coloured pass writes to alpha. Set the unit vector towards the light in
    * world space, and the full angle of its cone in degrees, above 0 and below 179. Alpha is 1 where G-buffer
-   * AO replaces the result; `intensity`, `power` and `combine` do not change it. Default 0 degrees: no
-   * light. */
+   * AO replaces the result; `intensity`, `power` and `combine` have no effect on it. Default 0: no light. */
   float light_axis[3];
   float light_degrees;
   /* A capsule farther than this from a point does not shadow this point. Default 0: 30 metres. */
