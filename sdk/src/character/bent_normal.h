@@ -1,7 +1,7 @@
 // Bent normals from occluded directions. The occluded direction of a point is the mean direction over its
-// cosine-weighted hemisphere, in which open directions count as zero. If everything is open, the occluded
-// direction is 0. If nothing is open, it is 2/3 of the normal. The bent normal is the direction of 2/3 of the
-// normal minus the occluded direction.
+// cosine-weighted hemisphere, where an open direction contributes the zero vector. If all directions are
+// open, the occluded direction is 0. If no direction is open, it is 2/3 of the normal. The bent normal is the
+// vector (2/3 of the normal - occluded direction), normalised.
 #pragma once
 
 #include <cmath>
@@ -20,11 +20,11 @@ struct OccludedEnds {
   Vec3 at(float ao) const { return (1 - ao) * dark + ao * open; }
 };
 
-// The length of the cosine-weighted mean direction of an open hemisphere.
+// The length of the cosine-weighted mean direction of a fully open hemisphere.
 inline constexpr float open_hemisphere = 2.0f / 3;
 
-// Returns the bent normal as a unit vector. If the point is not open at all, returns the normal. Both vectors
-// are in the same space.
+// Returns the bent normal as a unit vector. If no direction is open, returns the normal. `normal` and
+// `occluded` must be in the same space.
 inline Vec3 bent_normal(Vec3 normal, Vec3 occluded) {
   const Vec3 left = open_hemisphere * normal - occluded;
   const float size = length(left);

@@ -1,7 +1,7 @@
-// The rest pose of a model's rigged file. Engines have joint matrices or skinning matrices, but not this
-// library's rest space. The bind data is used to convert the engine's matrices (pose_source.h), to compare
-// the host's skinned vertices with the model's (pose_check.h), and to find the model's vertices in a host's
-// mesh (host_vertices.h).
+// The rest pose of a model's rigged file. Engines have joint matrices or skinning matrices, which do not use
+// this library's rest space. The bind data is used to convert the engine's matrices (pose_source.h), to
+// compare the host's skinned vertices with the model's (pose_check.h), and to find the model's vertices in a
+// host's mesh (host_vertices.h).
 #pragma once
 
 #include <array>
@@ -31,10 +31,10 @@ struct BoneWeights {
   static constexpr std::uint32_t max_bones = 8;
   std::uint32_t count = 0;
   std::array<std::uint16_t, max_bones> bone{};
-  std::array<float, max_bones> weight{};  // the first `count` entries are 0 to 1 and sum to 1
+  std::array<float, max_bones> weight{};  // the first `count` entries are between 0 and 1, and sum to 1
 };
 
-// A welded vertex that lies so near to others that their quantised rest positions may be equal.
+// A welded vertex that is so close to another one that the quantised rest positions of both may be equal.
 struct CloseVertex {
   std::uint32_t welded = 0;
   std::uint16_t space = 0;  // index into BindData::rest_from_mesh
@@ -69,10 +69,10 @@ struct BindData {
   Vector<Mat3x4> rest_from_mesh;
   Vector<std::uint16_t> primitive_space;  // index into rest_from_mesh, for each primitive
   Vector<SkinBind> skins;                 // empty: the meshes are rigid, or came as arrays
-  Vector<std::uint16_t> bone_of_joint;    // of all skins
-  Vector<RestVertex> vertices;            // at most max_vertices, distributed over the bones
-  Vector<CloseVertex> close;              // vertices that are near each other are stored next to each other;
-                                          // otherwise in any order
+  Vector<std::uint16_t> bone_of_joint;    // the bones of all skins, one skin after another
+  Vector<RestVertex> vertices;            // a sample of at most max_vertices file vertices, chosen so that it
+                                          // covers the bones
+  Vector<CloseVertex> close;              // vertices that are near each other are stored next to each other
 
   bool empty() const { return bones.empty(); }
 };

@@ -1,5 +1,5 @@
-// Tests whether the matrix of a bone is a rotation with uniform scale. All code uses this test, for float and
-// for double matrices.
+// Tests whether the matrix of a bone is a rotation with uniform scale. All code uses this one test, so that
+// float and double matrices are treated alike.
 #pragma once
 
 #include <algorithm>
@@ -13,12 +13,12 @@ template <class Real>
 struct BoneAxes {
   std::array<Real, 3> squared{};  // length of each axis
   Real longest_squared = 0;
-  Real shear = 0;  // the largest absolute dot product of two axes; divided by longest_squared, about the
-                   // cosine of their angle
+  Real shear = 0;  // the largest absolute dot product of two axes; divided by longest_squared, it is about
+                   // the cosine of the angle between them
 
-  // True if the matrix is a rotation with uniform scale, within 1 % of the length. The constants are about 2
-  // %, because squared lengths are compared; their last digits allow for rounding. A zero matrix returns
-  // false.
+  // True if the matrix is a rotation with uniform scale, with a tolerance of 1 % of the length. The constants
+  // allow about 2 %, because squared lengths are compared. Their last digits allow for rounding. A zero
+  // matrix returns false.
   bool is_even() const {
     const Real shortest = std::min({squared[0], squared[1], squared[2]});
     return longest_squared > 0 && longest_squared <= shortest * Real(1.0205) &&

@@ -13,7 +13,8 @@ namespace {
 
 constexpr std::uint32_t max_vertices = 1u << 24, max_bones = 65535;
 constexpr float max_duration_s = 1e6f;
-// AO in [0, 1] is a sum of products of modes and weights. So the scales of modes are far below this bound.
+// The upper bound for the scale of an AO mode. AO is in [0, 1] and is a sum of products of modes and weights,
+// so real scales are far below this bound.
 constexpr float max_ao_scale = 1e4f;
 
 void check_count(std::uint32_t got, std::uint32_t low, std::uint32_t high, const char* what,
@@ -99,8 +100,8 @@ void check_clip_set(const ClipSet& set, nook_result code) {
 namespace {
 
 // Returns the index of the farthest vertex along each of several directions. If two models have the same
-// welded vertices in a different order, these indices differ. Indices are the same on every machine, while
-// positions may differ in the last digit.
+// welded vertices in a different order, these indices differ. The hash uses indices and not positions,
+// because positions may differ in the last digit between machines.
 std::array<std::uint32_t, 16> farthest_vertices(const CharacterModel& model) {
   std::array<std::uint32_t, 16> farthest{};
   for (std::size_t d = 0; d < farthest.size(); ++d) {
@@ -204,7 +205,7 @@ std::vector<std::byte> names_of(const ClipSet& set) {
 }
 
 void read_names(ByteReader in, ClipSet& set) {
-  // The shortest clip takes six bytes. It has no name.
+  // 48 bits: the shortest clip, which has an empty name, takes six bytes.
   const std::uint32_t count = in.check_count(in.varint(), 48, "clips");
   if (count > ClipSet::max_clips)
     throw Failure(NOOK_ERROR_BAD_FILE, "the number of clips is out of range (got %u, need 1 to %u)", count,

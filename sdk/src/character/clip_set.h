@@ -1,6 +1,7 @@
 // The clips of a character as two tables over frames. One table holds the character's own AO at each vertex,
-// the other the pose of each bone. Each column of a table is a sum of a few weighted modes, so a frame only
-// stores a short row of weights. Plain data, rest space and metres.
+// the other the pose of each bone. A table has a column for each frame. Each column is a weighted sum of a
+// few modes, so a frame only stores a short row of weights. Everything is plain data, in rest space and
+// metres.
 #pragma once
 
 #include <nook/nook.h>
@@ -41,8 +42,8 @@ template <class Number>
 struct FrameTable {
   explicit FrameTable(Memory* memory = default_memory()) : mode(memory), weight(memory), scale(memory) {}
 
-  // The largest magnitude of a number. The most negative number is not used, so that both signs have the same
-  // range.
+  // The largest magnitude of a stored mode element. The most negative integer is not used, so that both signs
+  // have the same range.
   static constexpr int max_mode = (1 << (8 * sizeof(Number) - 1)) - 1;
   static constexpr int max_weight = 32767;
 
@@ -50,7 +51,7 @@ struct FrameTable {
   std::uint32_t modes = 0;
   Vector<Number> mode;          // modes x rows
   Vector<std::int16_t> weight;  // frames x modes
-  Vector<float> scale;          // for each mode: the value of the weight max_weight
+  Vector<float> scale;          // for each mode: the factor that the stored weight max_weight stands for
 
   float frame_weight(std::size_t frame, std::size_t k) const {
     return scale[k] * (1.0f / max_weight) * float(weight[frame * modes + k]);
@@ -75,24 +76,25 @@ struct ClipSet {
   std::uint32_t frame_count = 0;  // of all clips
   std::uint64_t model_hash = 0;   // clip_model_hash of the character
   // AO of welded vertices: 0.5 + the table's value, clamped to [0, 1]. The number of modes is a multiple of
-  // four, because shaders read them in fours.
+  // four, because shaders read four modes at a time.
   FrameTable<std::int8_t> ao;
   Vector<BoneSpan> bones;
   // For each bone, the map from rest space to the clip's space as 12 values: BoneSpan::radius times the nine
-  // elements of rotation and scale, row by row, then the position of BoneSpan::centre. So errors of all 12
-  // values are lengths in metres on the body.
+  // elements of rotation and scale, row by row, then the position of BoneSpan::centre. Because of the factor,
+  // an error of any of the 12 values is a length in metres on the body.
   FrameTable<std::int16_t> pose;
   String recipe;  // JSON text of the bake's settings; the runtime does not read it
 };
 
-// Throws Failure with `code` and the first fault. A count or index may be out of range, an array may have the
-// wrong length, or a number may not be finite or within its range.
+// Throws Failure with `code` and the first fault. A fault is a count or index out of range, an array of the
+// wrong length, or a value that is not finite or not within its range.
 void check_clip_set(const ClipSet& set, nook_result code);
 // Checks only the counts. Call it before you read an array.
 void check_clip_counts(const ClipSet& set, nook_result code);
 
-// Returns a hash of the order of the model's welded vertices and bones, on which a ClipSet depends. The hash
-// stays the same if you bake the character again, or if you reorder the model to match a host's mesh.
+// Returns a hash of the order of the model's welded vertices and bones. A ClipSet is only valid for this
+// order. The hash stays the same if you bake the character again, or if you reorder the model to match a
+// host's mesh.
 std::uint64_t clip_model_hash(const CharacterModel& model);
 
 // Throws Failure(INVALID_ARGUMENT) unless the set was baked from the model's character.

@@ -28,14 +28,15 @@ struct LightLobe {
   Vec3 vector;
   float sharpness = 0;
   Vec3 amplitude;   // linear RGB
-  float above = 1;  // the share of the lobe that the ground does not hide
+  float above = 1;  // the fraction of the lobe's light that the ground does not hide
 };
 
 struct LightView {
   const LightLobe* lobes = nullptr;
   std::uint32_t count = 0;
-  // Lower bound for the radiance of a hemisphere, > 0: a small share of the mean radiance of all directions.
-  // Fitted lobes can ring below 0 on the dark side. Without the bound, the ratios there would be extreme.
+  // Lower bound for the radiance of a hemisphere, > 0: a small fraction of the mean radiance of all
+  // directions. On the dark side, the sum of fitted lobes can be near 0 or below. Without the bound, rho
+  // would be extreme there.
   Vec3 darkest;
 };
 
@@ -59,8 +60,8 @@ F lobe_norm(F v) {
   return q / fma(v, q, F(1.0f));
 }
 
-// Returns the mean radiance of the lobes under the density with the vector b. The parts of the lobes that the
-// ground hides are left out.
+// Returns the mean radiance of the lobes under the density with the vector b. Light that the ground hides is
+// not included.
 template <class F>
 Colour<F> mean_radiance(const LightView& light, const Direction<F>& b) {
   const F length_b = sqrt(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)));
@@ -89,16 +90,16 @@ Colour<F> inverse_hemisphere(const LightView& light, const Direction<F>& n) {
           one / max(mean.b, F(light.darkest.z))};
 }
 
-// The direction from a key point to the part of a caster above its horizon.
+// The direction from a key point to the part of a caster that is above the key point's horizon.
 template <class F>
 struct Sight {
   Direction<F> towards;  // unit
   F cosine;              // cosine of the angle to the normal
 };
 
-// Returns the sight of a sphere from a key point. o is the sphere's centre relative to the key point, in
+// Returns the Sight of a sphere from a key point. o is the sphere's centre relative to the key point, in
 // units of its radius; xi = dot(o, n) is its height, and delta2 its squared distance. If the horizon cuts the
-// sphere, the sight points to the middle of the visible part.
+// sphere, the Sight points to the middle of the visible part.
 template <class F>
 Sight<F> sight_of(const Direction<F>& n, const Direction<F>& o, F xi, F delta2) {
   const F height = max(xi, fma(max(xi, F(-1.0f)), F(0.5f), F(0.5f)));
@@ -139,8 +140,8 @@ Colour<F> light_ratio(const LightView& light, const Colour<F>& inverse, const Di
 // Pass this as `sharpest` for a single sphere: it does not limit the sharpness.
 inline constexpr float no_sharpest = float(NOOK_NO_SHARPEST);
 
-// Combines the spheres of one caster: the mean of their sights, weighted by their shares, and the sum of
-// these shares.
+// Combines the spheres of one caster. Holds the mean of their Sight directions, weighted by the fraction f
+// that each sphere covers, and the sum of these fractions.
 template <class F>
 struct JointSight {
   Direction<F> sum{F(0.0f), F(0.0f), F(0.0f)};
@@ -156,7 +157,8 @@ struct JointSight {
     const Direction<F> d{sum.x * scale, sum.y * scale, sum.z * scale};
     return {d, fma(d.x, n.x, fma(d.y, n.y, d.z * n.z))};
   }
-  // Returns the sharpness of a lobe that has the spread of the sights: 1 / (1 - length of their mean).
+  // Returns the sharpness of a lobe that is as wide as the spread of the directions: 1 / (1 - length of their
+  // mean).
   F sharpest() const {
     const F length = sqrt(squared_length()) / max(taken, F(1e-15f));
     return F(1.0f) / max(F(1.0f) - length, F(1e-4f));
@@ -222,8 +224,8 @@ Colour<F> ground_ratio(const LightView& light, const Direction<F>& n, const Dire
 inline constexpr float self_strength = float(NOOK_SELF_STRENGTH);
 inline constexpr float self_concentration = float(NOOK_SELF_CONCENTRATION);
 
-// Returns the density for a sphere of the body itself. The sphere removes the fraction y^gamma = `term` of
-// the light.
+// Returns the density for a sphere of the body itself. `term` is y^gamma, the fraction of the light that the
+// sphere removes.
 template <class F>
 void gather(GatheredBands<F>& gathered, const Direction<F>& n, const Sight<F>& sight, F y, F term) {
   const F k = concentration_of(sight, max(y, F(smallest_share)), self_concentration), h(directional_cosine);

@@ -9,9 +9,9 @@
 
 namespace nook {
 
-// Returns for each vertex the mean normal of its triangles, weighted by area. It has unit length, or is 0 if
-// the vertex has no triangle. `indices` holds three vertex indices for each triangle; all must be in range.
-// If most triangles face away from the host's normals, as in mirrored files, all results are flipped.
+// For each vertex, returns the mean normal of its triangles, weighted by their area. It has unit length, or
+// is 0 if the vertex has no triangle. `indices` holds three vertex indices for each triangle; all must be in
+// range. If most triangles face away from the host's normals, as in mirrored files, all results are flipped.
 Vector<Vec3> face_normals_of(const HostVertices& host, std::span<const std::uint32_t> indices,
                              Memory* memory);
 

@@ -7,14 +7,14 @@
 
 namespace nook {
 
-// What the host must tell about a pose on the GPU.
+// What the host must pass to describe a pose that is on the GPU.
 struct GpuPose {
   Sphere bound;             // contains all key points and proxy spheres; world space
   float largest_scale = 1;  // largest scale of the bones
 };
 
-// A bit of InstanceInput::reported, in addition to the topics of PoseNotes. The bit is set after the log has
-// reported that the instance does not darken the world.
+// A bit of InstanceInput::reported, in addition to the topics of PoseNotes. It is set after a message was
+// logged that the instance does not darken the world.
 inline constexpr std::uint32_t topic_no_world_casters = 8;
 
 // From now on, the pose of the instance is on the GPU. If the instance plays a clip, the call ends the clip,

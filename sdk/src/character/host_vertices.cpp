@@ -10,21 +10,21 @@
 namespace nook {
 namespace {
 
-// Transforms a normal from rest space to the mesh's space. For normals, this takes the transpose of the
-// matrix that transforms positions from the mesh's space to rest space.
+// Transforms a normal from rest space to the mesh's space. Normals are transformed by the transpose of
+// rest_from_mesh, because it is the matrix that transforms positions in the opposite direction.
 Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
   const float* m = rest_from_mesh.m;
   return normalised({m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,
                      m[2] * n.x + m[6] * n.y + m[10] * n.z});
 }
 
-// Returns the position of a close vertex with exactly the bits of the file. It is transformed if it is needed
-// in rest space.
+// Returns the position of a close vertex, bit-exact as in the file. If in_rest_space is set, returns this
+// position transformed to rest space.
 Vec3 exact_position(const CloseVertex& vertex, const Affine& rest_from_mesh, bool in_rest_space) {
   return in_rest_space ? transform(rest_from_mesh, vertex.mesh_position) : vertex.mesh_position;
 }
 
-// Returns the close vertex of each welded vertex; null for most vertices.
+// Returns a pointer for each welded vertex: to its CloseVertex, or null. Most are null.
 Vector<const CloseVertex*> close_vertices(const CharacterModel& model, Memory* memory) {
   Vector<const CloseVertex*> out(model.vertex_count(), nullptr, memory);
   for (const CloseVertex& vertex : model.bind.close) out[vertex.welded] = &vertex;
@@ -42,7 +42,7 @@ Candidate candidate_of(const CharacterModel& model, std::uint32_t file_vertex, s
   return out;
 }
 
-// In metres of rest space.
+// Returns the diagonal of the bounding box in rest space, in metres.
 float diagonal_of(const RestSurface& rest) {
   Vec3 low = rest.position[0], high = low;
   for (const Vec3 p : rest.position) {
@@ -101,7 +101,8 @@ std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex) {
 Candidates candidates_of(const CharacterModel& model, const HostVertices& host, Memory* memory) {
   const BindData& bind = model.bind;
   const Vector<const CloseVertex*> close = close_vertices(model, memory);
-  // Takes each welded vertex once per space, because seams in the file repeat it.
+  // Takes each welded vertex once for each space. At a seam, the file has several vertices for one welded
+  // vertex.
   Vector<std::uint32_t> seen_in_space(model.vertex_count(), no_vertex, memory);
   Candidates candidates(memory);
   for (std::size_t p = 0; p < model.primitives.size(); ++p) {
@@ -154,8 +155,8 @@ CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32
   out.file_to_welded.reserve(file_vertices.size());
   for (const std::uint32_t vertex : file_vertices) out.file_to_welded.push_back(model.file_to_welded[vertex]);
   set_primitives(model, file_vertices, out);
-  // Each rest vertex is mapped to the first host vertex that has the same welded vertex. If there is none,
-  // the rest vertex is dropped.
+  // Each rest vertex is mapped to the first host vertex that has the same welded vertex. If no host vertex
+  // has this welded vertex, the rest vertex is dropped.
   Vector<std::uint32_t> first_host(model.vertex_count(), no_vertex, memory);
   for (std::size_t i = out.file_to_welded.size(); i-- > 0;)
     first_host[out.file_to_welded[i]] = static_cast<std::uint32_t>(i);

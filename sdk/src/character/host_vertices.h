@@ -25,7 +25,8 @@ struct HostWeights {
   const float* weight = nullptr;         // finite, 0 or more
   std::size_t joint_stride = 0, weight_stride = 0;
   std::uint32_t influences = 0;
-  // The bone of each joint, for at least every joint that has a weight. If empty, joints are bone indices.
+  // The bone of each joint. It must cover every joint that has a weight. If empty, the joint indices are bone
+  // indices.
   std::span<const std::uint16_t> bone_of_joint;
 
   std::uint16_t joint_at(std::size_t vertex, std::uint32_t influence) const;
@@ -35,13 +36,13 @@ struct HostWeights {
 struct HostVertices {
   std::uint32_t count = 0;
   StridedPoints position;
-  StridedPoints normal;       // first null: none
-  StridedPoints face_normal;  // mean normal of the triangles around each vertex, unit length or 0; first
-                              // null: none
+  StridedPoints normal;       // no normals if `first` is null
+  StridedPoints face_normal;  // mean normal of the triangles around each vertex, unit length or 0; no normals
+                              // if `first` is null
   HostWeights weights;
   bool in_rest_space = false;
   std::int32_t primitive = -1;  // index of a primitive of the file; -1: all primitives
-  float tolerance = 1e-4f;      // share of the diagonal of the model's box
+  float tolerance = 1e-4f;      // relative to the diagonal of the model's bounding box
 };
 
 // Returns the space of the mesh that a file vertex belongs to, as an index into BindData::rest_from_mesh. The
@@ -71,8 +72,8 @@ float diagonal_of(const CharacterModel& model, const HostVertices& host);
 // Returns HostVertices::tolerance as a length in the host's unit.
 float tolerance_of(const CharacterModel& model, const HostVertices& host);
 
-// Sets the primitives of `out` and their spaces. Each primitive is a run of vertices of the same space.
-// Vertex i of `out` belongs to the same mesh as the vertex file_vertices[i] of `model`.
+// Sets the primitives of `out` and their spaces. Each primitive is a range of consecutive vertices in the
+// same space. Vertex i of `out` belongs to the same mesh as the vertex file_vertices[i] of `model`.
 void set_primitives(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                     CharacterModel& out);
 

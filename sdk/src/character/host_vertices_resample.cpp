@@ -14,8 +14,8 @@ namespace {
 constexpr float min_facing = 0.2f;
 constexpr float facing_power = 8;
 constexpr std::size_t interpolated_vertices = 3;
-// Points that are closer than this share of the rest pose's diameter are treated as one place. This allows
-// for 16-bit positions.
+// Points are treated as the same place if their distance is less than this fraction of the rest pose's
+// diameter. The tolerance covers the rounding of 16-bit positions.
 constexpr float same_place = 1e-4f;
 
 // A position with a normal. If there are no normals, all points get the same one.
@@ -94,9 +94,10 @@ struct Share {
   float weight = 0;
 };
 
-// Weights the nearest candidates by the inverse square of their distance. The weights sum to 1. At the place
-// of a baked vertex, this vertex gets all but a millionth of the weight. Where parts of a body meet, vertices
-// at the same place face different ways. A high power of the cosine chooses between them.
+// Weights the nearest candidates by the inverse square of their distance. The weights sum to 1. If the point
+// is at the place of a baked vertex, this vertex gets nearly all of the weight; only a millionth is left for
+// the others. Where parts of a body meet, vertices at the same place face different ways. A factor with a
+// high power of the cosine between the normals chooses between them.
 Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, std::span<const Oriented> points,
                         Memory* memory) {
   Vector<Share> shares(memory);
@@ -185,13 +186,13 @@ Oriented in_rest_space(const Oriented& at, const CharacterModel& model, std::uin
   Oriented rest = at;
   const Mat3x4& matrix = model.bind.rest_from_mesh[space_of(model, file_vertex)];
   if (!host.in_rest_space) rest.position = transform(to_double(matrix), at.position);
-  // The mesh's own normals would need the inverse transpose. The normal of the nearest baked vertex is
-  // already in rest space.
+  // To transform the mesh's own normals, we would need the inverse transpose of the matrix. Instead, we use
+  // the normal of the nearest baked vertex, which is already in rest space.
   if (!host.in_rest_space || !host.normal.first) rest.normal = baked_normal;
   return rest;
 }
 
-// Keeps the pose check's vertices for which the new mesh has a vertex at the same place.
+// The pose check uses BindData::vertices. Keeps those for which the new mesh has a vertex at the same place.
 void keep_rest_vertices(const CharacterModel& model, CharacterModel& out, Memory* memory) {
   Vector<Oriented> points(memory);
   for (std::size_t i = 0; i < out.rest.position.size(); ++i)

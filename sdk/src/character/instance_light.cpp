@@ -29,7 +29,7 @@ void check_lobe(const SphericalGaussian& lobe, std::size_t index) {
                     index, double(channel));
 }
 
-// Points the lanes into the storage.
+// Takes over the storage, and sets the pointers of the lanes to it.
 void take_storage(InstanceLight& light, AlignedArray<float> storage) {
   light.storage = std::move(storage);
   const std::size_t length = light.storage.size() / light_lanes;
@@ -64,8 +64,8 @@ float norm_sum_of(float shadow, float saturation, float gamma) {
   return gamma == 1 ? norm : std::pow(norm, gamma);
 }
 
-// Turns the weighted sums into the coloured shadow, shadow * (sum of y^gamma rho) / (sum of y^gamma). Then
-// copies it from the evaluated key points to all key points.
+// Computes the coloured shadow from the weighted sums: shadow * (sum of y^gamma rho) / (sum of y^gamma). Then
+// computes it for the key points that are not evaluated.
 void colour_shadow(const Instance& instance, InstanceLight& light) {
   const PointLanes& points = instance.result.arrays.points;
   const float gamma = instance.model->model.kernel.gamma;
@@ -74,7 +74,7 @@ void colour_shadow(const Instance& instance, InstanceLight& light) {
   const float* saturation = rest_points_of(instance).view().saturation;
   for (std::uint32_t k = 0; k < points.count; ++k) {
     const std::uint32_t source = level ? level->source[k] : k;
-    // At a coarser level, the sums are no longer stored, and are computed back from the shadows.
+    // At a coarser level, the sums are no longer stored, so they are computed from the shadows.
     const float sum =
         level ? norm_sum_of(points.norm_sum[source], saturation[source], gamma) : points.norm_sum[source];
     const float scale = sum > 0 ? points.shadow[k] / sum : 0;
@@ -111,7 +111,7 @@ void evaluate_composed(const Scene& scene, const Instance& instance, const Point
   spread_added(instance, light);
 }
 
-// In the paper's form, the spheres of casters and of the body are summed in one norm.
+// In the paper's form, a single norm sums the spheres of the body and of its casters.
 void join_paper_norm(const Scene& scene, const Instance& instance, const PointLanes& points,
                      InstanceLight& light) {
   const auto join = [&](const SphereSoa& spheres) {
@@ -144,7 +144,8 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
     light.lobes[i] = {lobes[i].axis * lobes[i].sharpness, lobes[i].sharpness, lobes[i].amplitude, 1};
     light.lobe_bands[i] = bands_of(lobes[i].sharpness);
   }
-  // A distant instance is evaluated at once for its first light, without waiting for its turn.
+  // Distant instances are evaluated in turns. When such an instance gets its first light, it is evaluated in
+  // the next update, without waiting for its turn.
   if (light.count == 0 && !lobes.empty()) instance.result.evaluated_frame = 0;
   light.count = static_cast<std::uint32_t>(lobes.size());
   light.darkest = darkest_of(lobes);
@@ -170,7 +171,8 @@ InstanceLight moved_light(const Scene& scene, const InstanceLight& light, const 
   return moved;
 }
 
-// In the paper's form, the ground is one of the spheres of the norm, and removes its light there.
+// In the paper's form, the ground is one of the spheres of the norm. The norm then accounts for the light
+// that the ground removes, so the lobes are not reduced here.
 void prepare_light(const Scene& scene, Instance& instance) noexcept {
   InstanceLight& light = instance.light;
   const bool hides = instance.plan.ground_sphere.radius > 0 && scene.settings.form == NOOK_FORM_DEFAULT;

@@ -18,11 +18,11 @@ struct Scene;
 
 inline constexpr std::uint32_t max_light_lobes = NOOK_PROBE_MAX_FUNCTIONS;
 
-inline constexpr std::size_t light_lanes = 15;  // of InstanceLight::storage
+inline constexpr std::size_t light_lanes = 15;  // number of arrays in InstanceLight::storage
 
 struct InstanceLight {
   AlignedArray<LightLobe> lobes;       // max_light_lobes elements, or empty before the first light
-  AlignedArray<LobeBands> lobe_bands;  // the same
+  AlignedArray<LobeBands> lobe_bands;  // one element for each element of `lobes`
   std::uint32_t count = 0;             // 0: no light
   Vec3 darkest;                        // see LightView
   LightBands bands;                    // bands of the lobes, without the parts that the ground hides
@@ -31,9 +31,9 @@ struct InstanceLight {
   // One array of PointLanes::padded_count for each channel; the pointers are into storage.
   float* shadow[3] = {};   // the coloured form of PointLanes::shadow
   float* added[3] = {};    // the coloured form of PointLanes::added
-  float* sum[3] = {};      // scratch, of the evaluated key points
-  float* open[3] = {};     // scratch, the same
-  float* inverse[3] = {};  // scratch, the same
+  float* sum[3] = {};      // scratch memory for the evaluated key points
+  float* open[3] = {};     // scratch memory, like `sum`
+  float* inverse[3] = {};  // scratch memory, like `sum`
   AlignedArray<float> storage;
 
   LightView view() const { return {lobes.data(), count, darkest}; }
@@ -48,11 +48,11 @@ void check_light_lobes(std::span<const SphericalGaussian> lobes);
 // for the first light of an instance.
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes);
 
-// Returns the light of an instance for another model. The new light has the same lobes, but is not evaluated
-// yet. Throws std::bad_alloc.
+// Returns an instance's light with arrays for another model. The new light has the same lobes, but is not
+// evaluated yet. Throws std::bad_alloc.
 InstanceLight moved_light(const Scene& scene, const InstanceLight& light, const LoadedModel& model);
 
-// The light's part of make_arrays and leave_arrays (scene.h).
+// make_arrays and leave_arrays (scene.h) call these for the arrays of the light.
 void make_light_arrays(const Scene& scene, Instance& instance);
 void leave_light_arrays(Instance& instance) noexcept;
 

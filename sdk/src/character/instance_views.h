@@ -27,7 +27,7 @@ inline bool may_group(const Scene& scene) {
 
 // Returns the spheres of a caster for a receiver. Uses the coarsest tier of groups whose error is small
 // enough at this distance, or else the spheres at the receiver's level. If a caster must not be grouped,
-// group_spheres has made no groups for it.
+// group_spheres has not made groups for it.
 inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, const Instance& caster) {
   const InstanceResult& result = caster.result;
   if (result.grouped_revision == caster.input.pose_revision) {
@@ -68,14 +68,14 @@ inline KeyPointSoa surface_points(const PointLanes& p) {
   return {p.surface_x, p.surface_y, p.surface_z, p.surface_nx, p.surface_ny, p.surface_nz, p.padded_count};
 }
 
-// Returns the number of spheres that darken the instance besides other characters' spheres: free occluders,
-// and the ground if it matters.
+// Returns the number of spheres that darken the instance and do not belong to a character: the free
+// occluders, and the ground if it is not skipped.
 inline std::uint32_t free_sphere_count(const Instance& instance) {
   return static_cast<std::uint32_t>(instance.plan.occluders.size()) +
          (instance.plan.ground_sphere.radius > 0);
 }
 
-// Calls apply for the ground's sphere if the ground matters.
+// Calls `apply` for the ground's sphere, unless the ground is skipped.
 template <class Apply>
 void for_ground(const Instance& instance, Apply&& apply) {
   const Sphere& ground = instance.plan.ground_sphere;
@@ -84,7 +84,8 @@ void for_ground(const Instance& instance, Apply&& apply) {
   apply(SphereSoa{&ground.centre.x, &ground.centre.y, &ground.centre.z, &inverse_radius, nullptr, 1});
 }
 
-// Calls `apply` for the free occluders, in batches that live on the stack. Their caster weight is 1.
+// Calls `apply` for the free occluders, in batches that are stored on the stack. The caster weight of free
+// occluders is 1.
 template <class Apply>
 void for_occluders(const Scene& scene, const Instance& instance, Apply&& apply) {
   constexpr std::uint32_t batch = 16;

@@ -26,13 +26,14 @@ inline constexpr int kernel_form_count = 3;
 
 struct Kernel {
   KernelForm form = KernelForm::nook;
-  // The exponent of the norm over spheres, >= 1 (slide 20). The paper needs larger exponents, so that the
-  // spheres of neighbours do not darken twice. In Nook, neighbours have a separate term (the composed form),
-  // and for self-shadow the plain sum (gamma 1) fits best.
+  // The exponent of the norm over spheres, >= 1 (slide 20). The paper needs larger exponents, because
+  // otherwise overlapping spheres of neighbouring bodies darken the same point twice. In Nook, other bodies
+  // have a separate term (the composed form), and for self-shadow the plain sum (gamma 1) fits best.
   float gamma = 1;
 };
 
-// The visibility of slide 18: 0 for a sphere far below the horizon, 1/2 on it, 1 far above.
+// The visibility of slide 18: 0 for a sphere far below the horizon, 1/2 for a sphere centred on the horizon,
+// and 1 far above it.
 template <class F>
 F visibility_paper(F xi) {
   return max(fma(xi, rsqrt(fma(F(4.0f) * xi, xi, F(1.0f))), F(0.5f)), F(0.0f));
@@ -59,10 +60,10 @@ F shadow_nook(F xi, F delta2) {
   return (xi + sqrt_positive(fma(xi, xi, F(1.0f)))) * rsqrt_cubed(delta2 + F(nook_kernel_core), 0.5f);
 }
 
-// Computes the same y as above, but from values that are not divided by r. y = r^2 / 2 (h + sqrt(h^2 + r^2))
-// / d2_and_core^(3/2), where h = r xi is the height and d2_and_core = r^2 (delta2 + core). `softness` is r^2.
-// `mass` is 3/4 r^2, because the estimate of the cube is scaled by 2/3. In this way, the constant factor of
-// the estimate is 1.
+// Computes the same y as shadow_nook, but from values in metres that are not divided by r. y = r^2 / 2 (h +
+// sqrt(h^2 + r^2)) / d2_and_core^(3/2), where h = r xi is the height and d2_and_core = r^2 (delta2 + core).
+// `softness` is r^2. `mass` is 3/4 r^2 instead of r^2 / 2, because rsqrt_cubed is called with the scale 2/3.
+// With this scale, the constant factor of the SIMD estimate is 1.
 template <class F>
 F shadow_nook_of_mass(F h, F d2_and_core, F softness, F mass) {
   return mass * ((h + sqrt_positive(fma(h, h, softness))) * rsqrt_cubed(d2_and_core, 2.0f / 3));
@@ -86,9 +87,9 @@ F shadow_term(KernelForm form, F xi, F delta2) {
   return shadow_nook(xi, delta2);
 }
 
-// Returns n / (1 + c n), the shadow of a key point, where n is the norm over its spheres. The norm counts
-// each sphere fully, as if no sphere were hidden behind another. But spheres that are close together hide
-// each other, so the shadow grows more slowly than the norm. c is fitted for each key point; c = 0 is the
+// Returns n / (1 + c n), the shadow of a key point, where n is the norm over its spheres. The norm adds up
+// all spheres as if no sphere were hidden behind another. But spheres that are close together hide each
+// other, so the true shadow grows more slowly than the norm. c is fitted for each key point. c = 0 gives the
 // paper's form.
 template <class F>
 F saturated(F norm, F c) {
@@ -97,11 +98,11 @@ F saturated(F norm, F c) {
 
 // The share of the cosine-weighted hemisphere above a surface that a sphere covers, clipped at the horizon.
 // With h = delta and c = sqrt((h^2 - 1) / (h^2 - xi^2)), for -1 < xi < 1 < h:
-//   f = [ (xi acos(-xi c) / h - sqrt((1 - xi^2)(h^2 - 1))) / h^2 + acos(c) ] / pi. f is xi / h^3 where the
-// sphere is completely above the horizon (xi >= 1), and 0 where it is below (xi <= -1). On the sphere's
-// surface f = (1 + xi) / 2, but inside the sphere the exact value is 1, which is discontinuous. A proxy
-// sphere is not a solid body. So inside it, f instead rises continuously with the depth, up to 1 at the
-// centre: f = t + (1 - t)(1 - h^2) with t = (1 + xi) / 2.
+//   f = [ (xi acos(-xi c) / h - sqrt((1 - xi^2)(h^2 - 1))) / h^2 + acos(c) ] / pi.
+// If the sphere is completely above the horizon (xi >= 1), f is xi / h^3. If it is completely below (xi <=
+// -1), f is 0. On the sphere's surface, f = (1 + xi) / 2. Inside the sphere, the exact value would be 1,
+// which is discontinuous. But a proxy sphere is not a solid body. So inside it, f instead rises continuously
+// with the depth, up to 1 at the centre: f = t + (1 - t)(1 - h^2) with t = (1 + xi) / 2.
 template <class F>
 F form_factor_exact(F xi, F delta2) {
   const F one(1.0f);
@@ -122,8 +123,8 @@ F form_factor_exact(F xi, F delta2) {
   return fma(max(one - f, F(0.0f)), depth, f);
 }
 
-// An approximation of form_factor_exact without inverse trigonometric functions. It is used for the many
-// spheres of a caster. With a = 1 / h, b = sqrt(1 - a^2) and t = (1 + xi) / 2 clamped to [0, 1], f = a^3
+// An approximation of form_factor_exact without inverse trigonometric functions. Casters use it, because they
+// have many spheres. With a = 1 / h, b = sqrt(1 - a^2) and t = (1 + xi) / 2 clamped to [0, 1], f = a^3
 // max(xi, 1) (t + t (1 - t) P(b, t)). The formula is exact if the horizon does not clip the sphere. P is even
 // in xi, because f(xi) - f(-xi) = xi a^3 exactly. P is 0 on the surface (b = 0, f = t). At infinity (b = 1) P
 // is -1 - 0.6044 t (1 - t), which gives 2 / (3 pi) on the horizon and, within 0.004, the integral G(xi) =
@@ -144,13 +145,13 @@ F form_factor_fast(F xi, F delta2) {
   return fma(max(one - outside, F(0.0f)), max(one - delta2, F(0.0f)), outside);
 }
 
-// Returns the optical depth of a caster. d is the sum of weight * form factor over the caster's spheres.
-// Spheres at random places would leave the fraction exp(-d) of the hemisphere open. But the spheres of a body
-// lie side by side and hide each other less, so together they leave less open. For example, a single sphere
-// that covers the fraction f leaves 1 - f = exp(-(f + f^2 / 2 + ...)). For vertices of bodies 0.3 to 1 m
-// apart, the ray-traced depth is d + 0.2 d^2 to d + 0.45 d^2 up to d = 0.6, where about half is open. For
-// larger d, the ray-traced depth is smaller than this function's, so points between two bodies that touch
-// become too dark.
+// Returns the optical depth of a caster. d is the sum of weight * form factor over the caster's spheres. If
+// the spheres were at random places, they would leave the fraction exp(-d) of the hemisphere open. But the
+// spheres of a body lie side by side and hide each other less, so a smaller fraction stays open. For example,
+// a single sphere that covers the fraction f leaves 1 - f = exp(-(f + f^2 / 2 + ...)). For vertices of bodies
+// 0.3 to 1 m apart, the ray-traced depth is d + 0.2 d^2 to d + 0.45 d^2 up to d = 0.6, where about half is
+// open. For larger d, the ray-traced depth is smaller than this function's, so points between two bodies that
+// touch become too dark.
 template <class F>
 F solid_depth(F d) {
   return fma(F(float(NOOK_SOLID_DEPTH)) * d, d, d);

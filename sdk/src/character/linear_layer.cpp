@@ -55,7 +55,7 @@ struct Columns {
     return static_cast<std::size_t>(std::lower_bound(begin + first[block], begin + first[block + 1], k) -
                                     begin);
   }
-  // Returns the index of a slot's weights in one of its block's columns.
+  // Returns the index of the weight of a slot in a column of its block.
   std::size_t place(std::size_t column, std::size_t slot) const {
     return column / 2 * linear_pair_weights + slot % linear_block_vertices * 2 + column % 2;
   }
@@ -73,7 +73,8 @@ float alpha_step_of(const Vector<float>& alpha) {
   return largest > 0 ? largest / (2 * 127 * 127) : 1;
 }
 
-// The step is a power of two, so the multiples of 1/16 in a file are also integer multiples of the step.
+// Returns the step of the stored blend weights. It is a power of two, so the blend weights of a file, which
+// are multiples of 1/16, are also integer multiples of the step.
 float blend_step_of(const Vector<float>& blend) {
   return std::exp2(std::ceil(std::log2(std::max(largest_of(blend), 1.0f)))) / 16384;
 }
@@ -85,7 +86,7 @@ AlignedArray<std::int16_t> in_steps(const Vector<float>& weights, float step, Me
   return out;
 }
 
-// Returns the maximum over all vertices of the sum of the absolute weights, in steps.
+// Returns the largest sum of absolute weights that any vertex has, in steps.
 double largest_sum(const AlignedArray<LinearBlock>& blocks, const AlignedArray<std::int16_t>& weights) {
   double largest = 1;
   for (const LinearBlock& block : blocks)

@@ -9,7 +9,7 @@ namespace {
 
 using Indices = Vector<std::uint32_t>;
 
-// Calls body(key_point) for each key point that shades a vertex.
+// Calls body(key_point) for each key point that the vertex uses.
 template <class Body>
 void for_influences(const CharacterModel& model, std::size_t vertex, Body&& body) {
   for (std::size_t e = vertex * model.influences; e < (vertex + 1) * model.influences; ++e)
@@ -56,7 +56,7 @@ class Window {
     while (is_taken_[first_left_]) ++first_left_;
     take(first_left_, order);
     for (std::uint32_t i = 1; i < count; ++i) take(next(), order);
-    // Resets the counts of missing key points to those for an empty block.
+    // Resets `missing_` to its values for an empty block.
     for (const std::uint16_t k : block_key_points_) {
       in_block_[k] = 0;
       for (const std::uint32_t user : users_[k]) ++missing_[user];
@@ -106,8 +106,8 @@ class Window {
 };
 
 // Appends the blocks of a window, sorted by descending number of key points. Successive loops over the key
-// points then often have equal lengths, and the processor predicts the end of such a loop. A block that is
-// not full stays last.
+// points then often have equal lengths, which helps the processor to predict the end of each loop. A block
+// that is not full stays last.
 void append_window(Window& window, std::size_t vertices, std::uint32_t block_vertices, Memory* memory,
                    Indices& order) {
   struct Block {

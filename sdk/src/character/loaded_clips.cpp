@@ -82,9 +82,8 @@ float mixed_weight(const FrameTable<std::int16_t>& table, const FrameMix& mix, s
   return first + mix.share * (table.frame_weight(mix.second, k) - first);
 }
 
-// Returns `time` modulo `duration`. The value of `duration` is exactly representable as a float. So its
-// product with fewer than 2^21 turns is exact, and the difference equals the result of fmod. Computing it
-// takes a fraction of the time of fmod.
+// Returns `time` modulo `duration`. `duration` must be a float value. Then its product with an integer below
+// 2^21 is exact, and the difference equals the result of fmod. This is much faster than fmod.
 double looped(double time, double duration) {
   const double turns = std::floor(time / duration);
   const double rest = time - turns * duration;
@@ -132,8 +131,8 @@ void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t fir
 
 namespace {
 
-// Returns the weighted sum of the modes. This matrix may still have shear and an uneven scale, and the place
-// of the instance is not applied yet.
+// Returns the weighted sum of the modes. This matrix may have shear and an uneven scale. It does not include
+// the place of the instance.
 Mat3x4 mixed_bone(const ClipSet& set, const FrameMix& mix, std::size_t bone) noexcept {
   constexpr float step = 1.0f / FrameTable<std::int16_t>::max_mode;
   std::array<float, pose_rows_per_bone> row{};
@@ -153,7 +152,8 @@ Mat3x4 mixed_bone(const ClipSet& set, const FrameMix& mix, std::size_t bone) noe
   return matrix;
 }
 
-// The bones of a frame: `mixed` as the table gives them, and `even` with a uniform scale and without shear.
+// The bones of a frame. `mixed` holds the matrices as the table gives them. `even` holds the nearest matrices
+// with a uniform scale and without shear.
 struct FrameBones {
   explicit FrameBones(std::size_t count, Memory* memory) : mixed(memory), even(memory) {
     mixed.resize(count);
@@ -209,10 +209,10 @@ Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place,
   return place * evened(mixed_bone(set, mix, bone), set.bones[bone].centre);
 }
 
-// A linear mix of two rotations is shorter than a rotation. Let c be the cosine of half the angle between the
+// A linear mix of two rotation matrices shortens vectors. Let c be the cosine of half the angle between the
 // two frames. At the share s of the second frame, the mix loses 1 - sqrt(1 - 4 s (1 - s) (1 - c^2)) of its
-// length. This is at most 4 s (1 - s) (1 - c), and equal to it at s = 1/2. The other parts of a bound are
-// convex: for any mix of two frames, they are at most the same mix of the two frames' bounds.
+// length. This is at most 4 s (1 - s) (1 - c), and equals it at s = 1/2. The other parts of a bound are
+// convex: for a mix of two frames, they are at most the mix of the two frames' bounds with the same share.
 PoseBound bound_of_mix(const LoadedClips& clips, const FrameMix& mix) noexcept {
   const FrameBound &first = clips.frame_bound[mix.first], &second = clips.frame_bound[mix.second];
   const float s = mix.share;

@@ -1,4 +1,5 @@
-// Clips in the runtime: shared and immutable, in the orders of their model.
+// The clips that the runtime uses. They are shared and immutable. Their vertices and bones are in the order
+// of the model.
 #pragma once
 
 #include <cstdint>
@@ -25,8 +26,9 @@ FrameMix frame_mix(const ClipRange& clip, double time_s, bool is_looping) noexce
 // Where the body is in a frame, in the clip's space.
 struct FrameBound {
   PoseBound bound;
-  // Halfway to the next frame of the clip, a bone is at most this far from the mean of its two places.
-  // Between two frames a bone moves on a line and turns, so that it leaves the line.
+  // In the middle between this frame and the next, the parts of a bone are at most this far from the mean of
+  // their positions in the two frames. The bone also turns between the frames, so its parts do not move on
+  // straight lines.
   float swing = 0;  // metres
 };
 
@@ -42,12 +44,13 @@ struct LoadedClips : RefCounted {
   static constexpr std::uint32_t block_slots = LoadedModel::slot_chunk;
   const AlignedArray<std::int8_t> block_mode;
 
-  const ClipSet set;  // without the modes of AO, which are above
+  const ClipSet set;  // without the modes of AO, which are stored above instead
 
-  // For each frame, so that nobody needs the bones of a crowd on the CPU. A frame whose numbers are too large
-  // for a pose has an infinite radius.
+  // The bound of each frame. With it, the CPU need not compute the bones of a crowd. The radius is infinite
+  // if the values of a frame are too large for a pose.
   const Vector<FrameBound> frame_bound;
-  const float reach;          // metres from the origin of the clip's space, of all frames
+  const float reach;          // metres; upper bound of the distance from the origin of the clip's space, for
+                              // all frames
   const float largest_scale;  // of all frames
 
   const std::int8_t* block_modes(std::uint32_t block) const {
@@ -55,7 +58,7 @@ struct LoadedClips : RefCounted {
   }
 };
 
-// Mixes the weights of AO; weights has set.ao.modes entries.
+// Mixes the weights of the AO table. `weights` has set.ao.modes entries.
 void mix_ao_weights(const ClipSet& set, const FrameMix& mix, float* weights) noexcept;
 
 // Decodes the AO of the slots [first_slot, first_slot + count), clamped to [0, 1]. All these slots must lie
@@ -63,15 +66,15 @@ void mix_ao_weights(const ClipSet& set, const FrameMix& mix, float* weights) noe
 void decode_ao(const LoadedClips& clips, const float* weights, std::uint32_t first_slot, std::uint32_t count,
                float* ao) noexcept;
 
-// Returns the matrix of a bone in a mix of frames: the place times the map from rest space to the clip's
-// space. The matrix is projected to the nearest rotation with one scale. Neither allocates nor throws.
+// Returns the matrix of a bone in a mix of frames: `place` times the map from rest space to the clip's space.
+// The matrix is projected to the nearest rotation with one scale. Neither allocates nor throws.
 Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place, std::size_t bone) noexcept;
 
-// Returns a bound of the pose in a mix of frames, in the clip's space and in constant time. In a frame it is
-// the bound of the frame's bones.
+// Returns a bound of the pose in a mix of frames, in the clip's space. Takes constant time. Exactly on a
+// frame, the result is the frame's own bound.
 PoseBound bound_of_mix(const LoadedClips& clips, const FrameMix& mix) noexcept;
 
-// The tables of clips as texels of four numbers, for the textures that shaders/clips/host.glsl reads.
+// The tables of clips as texels of four components, for the textures that shaders/clips/host.glsl reads.
 
 // A 2D texture whose rows follow one another.
 struct ClipTexels {

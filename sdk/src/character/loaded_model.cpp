@@ -26,9 +26,9 @@ std::size_t longest_side(std::span<const std::uint32_t> indices, const Vector<Pl
   return longest;
 }
 
-// Reorders `indices` into blocks of places that are near each other. All blocks have the same size; only the
-// last one may be smaller. Every coordinate must be finite. The recursion depth is O(log of the number of
-// blocks).
+// Reorders `indices` so that consecutive blocks contain places that are near each other. All blocks have the
+// same size; only the last one may be smaller. Every coordinate must be finite. The recursion depth is O(log
+// of the number of blocks).
 void order_in_space(std::span<std::uint32_t> indices, std::size_t block, const Vector<Place>& places) {
   if (indices.size() <= block) return;
   const std::size_t blocks = (indices.size() + block - 1) / block;
@@ -102,7 +102,7 @@ void renumber(CharacterLevel& level, const Indices& order, const Indices& place,
 CharacterModel with_near_key_points_together(CharacterModel model, Memory* memory) {
   const Indices order = near_order(model, memory), place = inverse_of(order, memory);
   permute(model.key_points, order, memory);
-  // Entries with weight 0 may have any index.
+  // An entry with weight 0 may hold any index, so only valid indices are renumbered.
   for (std::uint16_t& k : model.influence)
     if (k < place.size()) k = static_cast<std::uint16_t>(place[k]);
   for (CharacterLevel& level : model.levels) renumber(level, order, place, memory);

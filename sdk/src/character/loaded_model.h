@@ -33,8 +33,8 @@ struct LoadedModel : RefCounted {
   const RestSpheres rest_spheres;
   const RestKeyPoints rest_key_points;
   const LinearLayer linear;
-  const SphereGroups groups;         // of the spheres of full detail
-  const SphereTree sphere_tree;      // also of the spheres of full detail
+  const SphereGroups groups;         // groups of the spheres of full detail
+  const SphereTree sphere_tree;      // tree of the spheres of full detail
   const Vector<LoadedLevel> levels;  // for model.levels, without full detail
 
   // A run of consecutive file vertices that read their AO from one chunk of slots of the linear layer. Their
@@ -42,8 +42,9 @@ struct LoadedModel : RefCounted {
   struct FileRun {
     std::uint32_t first_vertex = 0, vertices = 0, first_entry = 0;
   };
-  // Chunk c consists of the runs file_run[run_begin[c]...run_begin[c + 1]], in ascending order. Chunks are
-  // the windows of linear_layer_order, whose vertices are consecutive in most files.
+  // Chunk c consists of the runs file_run[run_begin[c]] up to but not including file_run[run_begin[c + 1]],
+  // in ascending order. Chunks are the windows of linear_layer_order, whose vertices are consecutive in most
+  // files.
   static constexpr std::uint32_t slot_chunk = linear_window_vertices;
   AlignedArray<std::uint32_t> run_begin;
   AlignedArray<FileRun> file_run;
@@ -53,16 +54,17 @@ struct LoadedModel : RefCounted {
 
   // For each bone, a sphere in rest space that contains all key points that the bone moves, and all proxy
   // spheres of the bone. The radius is < 0 if there are none. If you transform each sphere by its bone, the
-  // spheres together contain the posed character. The reason is that a blended key point lies between the
-  // points to which its single bones would move it.
+  // spheres together bound the posed character. This holds because a blended key point lies between the
+  // points to which each of its bones alone would move it.
   struct BoneBound {
     Vec3 centre;
     float radius = -1;
   };
   AlignedArray<BoneBound> bone_bounds;
-  float max_alpha_sum = 0;  // the maximum over the vertices of the sum of alpha. An error of 1 in all shadows
-                            // changes AO by at most this value
-  float caster_strength = 0;  // maximum over the levels of the sum of caster_weight * radius^2, square metres
+  float max_alpha_sum = 0;    // the largest sum of alpha that any vertex has; an error of 1 in all shadows
+                              // changes AO by at most this value
+  float caster_strength = 0;  // square metres; the sum of caster_weight * radius^2 over the spheres, at the
+                              // level with the largest sum
 };
 
 // Renumbers the key points of a model so that each group of key_point_group key points lies close together. A

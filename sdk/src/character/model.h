@@ -33,7 +33,7 @@ struct ProxySphere {
 // A capsule that is rigid to one bone. Together, the capsules of a body represent its volume when the body
 // darkens the world.
 struct WorldCaster {
-  Capsule capsule;  // with the radii for light, without ao_scale
+  Capsule capsule;  // its radii are the radii for light, which do not include ao_scale
   std::uint16_t bone = 0;
   // AO uses the capsule's radii times this scale. For AO, the open shares of several casters are multiplied
   // together, as if the casters covered the hemisphere independently. Casters that overlap must therefore be
@@ -44,10 +44,10 @@ struct WorldCaster {
 // A point that follows up to four bones by linear blend skinning; the blended normal is renormalised.
 struct KeyPoint {
   static constexpr int max_bones = 4;
-  Vec3 position;          // fitted; self-shadow is evaluated here
+  Vec3 position;          // fitted position, at which self-shadow is evaluated
   Vec3 normal;            // fitted, unit length
-  Vec3 surface_position;  // mean of the nearest vertices; added casters are evaluated here
-  Vec3 surface_normal;    // their mean normal, unit length
+  Vec3 surface_position;  // mean of the nearest vertices; the occlusion by other casters is evaluated here
+  Vec3 surface_normal;    // mean normal of the same vertices, unit length
   std::array<std::uint16_t, max_bones> bone{};
   std::array<float, max_bones> weight{};  // non-negative, with sum 1
   float saturation = 0;                   // c of saturated() in kernel.h, >= 0
@@ -58,8 +58,9 @@ struct PrimitiveRange {
   std::uint32_t vertex_count = 0;
 };
 
-// A coarser version of the non-linear layer for distant instances. Fewer spheres darken fewer key points, and
-// every other key point derives its shadow from an evaluated key point. The linear layer stays the same.
+// A coarser version of the non-linear layer for distant instances. It has fewer spheres, and evaluates only
+// some of the key points. The shadow of each remaining key point is computed from one evaluated key point.
+// The linear layer stays the same.
 struct CharacterLevel {
   using allocator_type = Allocator<std::byte>;
   explicit CharacterLevel(const allocator_type& memory = {})
@@ -82,8 +83,8 @@ struct CharacterLevel {
   Vector<std::uint16_t> source;
   Vector<float> scale;
   Vector<float> offset;
-  // The RMS difference in AO between this level and full detail, over all vertices and all poses that the fit
-  // did not use. Other instances are not included.
+  // The RMS difference in AO between this level and full detail, over all vertices and all poses that were
+  // not used for the fit. Only the body itself casts shadow.
   float error_rms = 0;
 };
 
@@ -126,7 +127,7 @@ struct CharacterModel {
   // AO of the rest pose for each welded vertex, as in a static bake; may be empty.
   Vector<float> static_ao;
 
-  // For each welded vertex, in rest space. Empty if the model was baked without occluded directions.
+  // The occluded directions of each welded vertex, in rest space. Empty if the model was baked without them.
   Vector<OccludedEnds> occluded;
 
   Vector<std::uint32_t> file_to_welded;  // the welded vertex of each vertex in file order
@@ -162,8 +163,8 @@ inline float max_saturation_of(const CharacterModel& model) {
 // small.
 constexpr float max_coefficient = 1e4f;
 
-// Above this saturation, a key point acts like a switch: half of its shadow's range lies below a norm of
-// 1/64.
+// Upper bound for the saturation. Above it, a key point acts like a switch: a norm of 1/64 is enough for half
+// of its maximum shadow.
 constexpr float max_saturation = 64;
 
 // Throws Failure with `code` for the first fault that it finds. A fault is a count or index out of range, a

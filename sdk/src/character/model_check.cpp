@@ -8,7 +8,7 @@
 namespace nook {
 namespace {
 
-// For larger gammas, the norm equals the maximum norm in float precision.
+// Upper bound for gamma. For larger values, the norm equals the maximum norm in float precision.
 constexpr float max_gamma = 64;
 constexpr float max_blend = 16;             // far above the values that a file can hold
 constexpr std::size_t max_indexed = 65536;  // number of values of a 16-bit index
@@ -16,8 +16,8 @@ constexpr std::size_t max_indexed = 65536;  // number of values of a 16-bit inde
 bool within(float value, float low, float high) {
   return value >= low && value <= high;
 }  // the comparison is false for NaN
-// The tolerance of 1e-3 is far above rounding and quantisation errors. A vector that was never normalised
-// normally differs by far more.
+// The tolerance of 1e-3 is far above rounding and quantisation errors. A vector that was not normalised
+// usually differs by far more.
 bool is_unit(Vec3 n) {
   return within(dot(n, n), 1 - 2e-3f, 1 + 2e-3f);
 }
@@ -80,7 +80,7 @@ void check_key_points(const CharacterModel& model, const Check& check) {
       check.that(within(point.weight[b], 0, 1), "bone weight of key point", k, point.weight[b], "0 to 1");
       sum += point.weight[b];
     }
-    // The error of four float additions and a conversion from double is well below 1e-4.
+    // The tolerance: the error of four float additions and a conversion from double is well below 1e-4.
     check.that(within(sum, 1 - 1e-4f, 1 + 1e-4f), "sum of bone weights of key point", k, sum, "1");
     check.that(within(point.saturation, 0, max_saturation), "saturation of key point", k, point.saturation,
                "0 to 64");
@@ -109,7 +109,7 @@ void check_linear_layer(const CharacterModel& model, const Check& check) {
     for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e)
       check.that(model.alpha[e] > 0 || model.blend[e] == 0, "blend weight of vertex", i, model.blend[e],
                  "0 where alpha is 0");
-    // The sum has eight additions of values up to 16.
+    // The tolerance: the sum has eight additions of values up to 16.
     check.that(within(blend_sum, 1 - 1e-4f, 1 + 1e-4f), "sum of blend weights of vertex", i, blend_sum, "1");
     check.that(within(std::abs(model.bias[i]), 0, max_coefficient), "bias of vertex", i, model.bias[i],
                "-1e4 to 1e4");
@@ -233,7 +233,7 @@ void check_bind_data(const CharacterModel& model, const Check& check) {
   }
 }
 
-// The coordinates of a mesh may be in any unit.
+// Checks only that the coordinates are finite. A mesh may use any unit, so their size is not limited.
 bool is_finite(Vec3 p) {
   return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z);
 }

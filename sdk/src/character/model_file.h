@@ -5,7 +5,8 @@
 //   BIND bind data (optional)   REST rest positions and normals of the welded vertices (optional)
 //   WCAS world casters (optional)   BENT occluded directions of the welded vertices (optional)
 //   SATU saturations of the key points (optional, all 0 without it)
-//   NEAR exact positions of welded vertices that lie next to others, and weights if these differ (optional).
+//   NEAR exact positions of welded vertices that are very close to others, and weights if these differ
+//   (optional).
 // Readers also accept version 2, without BIND and REST, and version 3, without SATU. Values are quantised
 // within the error budget. model_file_packing.h lists the bits of each field.
 #pragma once

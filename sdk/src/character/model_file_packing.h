@@ -18,22 +18,24 @@ struct CharacterBits {
   static constexpr int sphere_radius = 16;
   static constexpr int caster_weight = 8;
   static constexpr int key_position = 16;
-  // The bits of each of the two octahedral coordinates. The error of the normal is at most 0.1 degree.
+  // The number of bits of each of the two octahedral coordinates. The error of the normal is at most 0.1
+  // degree.
   static constexpr int key_normal = 11;
-  static constexpr int surface_offset = 12;  // surface position minus position: steps of 0.1 mm in 0.4 m
+  static constexpr int surface_offset = 12;  // surface position minus position: steps of 0.1 mm in a range of
+                                             // 0.4 m
   static constexpr int surface_normal = 10;
   static constexpr int bone_count = 2;
   // In units of 1/256, so that the weights of a key point sum to exactly 1.
   static constexpr int bone_weight = 8;
-  static constexpr int saturation = 8;  // square-root companded
+  static constexpr int saturation = 8;  // codes are linear in the square root
   static constexpr int entry_count = 3;
-  static constexpr int reference = 5;  // selects the earlier vertex that shares key points
-  static constexpr int alpha = 7;      // square-root companded
+  static constexpr int reference = 5;  // selects an earlier vertex, whose key points are reused
+  static constexpr int alpha = 7;      // codes are linear in the square root
   static constexpr int bias = 8;
   static constexpr int blend = 5;
   static constexpr int level_scale = 8;
   static constexpr int level_offset = 8;
-  static constexpr int world_caster_end = 14;  // 0.1 mm in 2 m
+  static constexpr int world_caster_end = 14;  // steps of 0.1 mm in a range of 2 m
   static constexpr int world_caster_radius = 12;
   static constexpr int world_caster_scale = 8;
   static constexpr int rest_position = 16;

@@ -154,7 +154,7 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
     counts[i % max_references] = count;
     for (; e < count; ++e) model.influence[first + e] = static_cast<std::uint16_t>(in.bits(key_point_bits));
     for (e = 0; e < count; ++e) model.alpha[first + e] = decode_alpha(in.bits(Bits::alpha), max_alpha);
-    float left = 1;  // sixteenths, so the arithmetic is exact
+    float left = 1;  // all values are multiples of 1/16, so the arithmetic is exact
     for (e = 1; e < count; ++e) left -= model.blend[first + e] = decode_blend(in.bits(Bits::blend));
     model.blend[first] = left;
     model.bias.push_back(bias.decode(in.bits(Bits::bias), Bits::bias));
@@ -246,8 +246,8 @@ void read_skin(ByteReader& in, BindData& bind, int bone_bits) {
   skin.file_index = in.varint();
   skin.space = static_cast<std::uint16_t>(std::min(in.varint(), 0xffffu));
   skin.first_joint = static_cast<std::uint32_t>(bind.bone_of_joint.size());
-  // In a model with one bone, a joint takes no bits in the file, so the size of the file does not limit the
-  // count. Only this check does.
+  // In a model with one bone, a joint takes 0 bits in the file, so the file's size does not limit
+  // joint_count. Only this check limits it.
   skin.joint_count = in.varint();
   if (skin.joint_count > bind.bones.size())
     throw Failure(NOOK_ERROR_BAD_FILE,

@@ -107,7 +107,7 @@ ByteWriter write_saturations(const CharacterModel& model) {
   return out;
 }
 
-// The entries of a vertex with alpha above 0; the file holds only these.
+// The entries of a vertex whose alpha is above 0. The file contains only these entries.
 struct CodedEntry {
   std::uint16_t key_point = 0;
   std::uint32_t alpha = 0, blend = 0;  // codes
@@ -117,9 +117,9 @@ struct CodedEntries {
   std::uint32_t count = 0;
 };
 
-// Encodes the alphas in descending order. The rounding error of each alpha is added to the next alpha, whose
-// steps are finer. So the sum of the alphas stays accurate. The sum matters most, because neighbouring key
-// points have similar shadows.
+// Encodes the alphas in descending order. The rounding error of each alpha is added to the next alpha, which
+// has finer steps. In this way, the sum of the alphas stays accurate. The sum is what matters most, because
+// neighbouring key points have similar shadows.
 CodedEntries code_entries(const CharacterModel& model, std::size_t vertex, float max_alpha) {
   const float* const alpha = model.alpha.data() + vertex * model.influences;
   std::array<std::uint32_t, CharacterModel::max_influences> order{};
@@ -205,8 +205,8 @@ ByteWriter write_linear_layer(const CharacterModel& model) {
   return out;
 }
 
-// For each key point, writes one bit that is set if the key point is evaluated. If it is not, also writes its
-// source, scale and offset.
+// For each key point, writes one bit, which is set if the key point is evaluated. For key points that are not
+// evaluated, also writes source, scale and offset.
 void write_level(ByteWriter& out, const CharacterLevel& level, std::size_t bones) {
   out.f32(level.error_rms);
   write_spheres(out, level.spheres, bones);

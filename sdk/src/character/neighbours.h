@@ -19,8 +19,8 @@ struct NeighbourTree {
     Vec3 place;
     std::uint32_t slot = 0;
   };
-  // The box of a range of `entries`. Node i halves its range between nodes 2 i + 1 and 2 i + 2; all leaves
-  // lie at the same depth.
+  // The box of a range of `entries`. The two halves of the range of node i are nodes 2 i + 1 and 2 i + 2. All
+  // leaves have the same depth.
   struct Node {
     Vec3 low, high;
     std::uint32_t min_slot = 0;
@@ -45,8 +45,8 @@ void clear_tree(NeighbourTree& tree) noexcept;
 void add_to_tree(NeighbourTree& tree, std::uint32_t slot, Vec3 place) noexcept;
 void build_tree(NeighbourTree& tree) noexcept;
 
-// Finds the k points that are nearest to `place`, within max_distance, and without the point `slot`. k must
-// be at most max_nearest. Returns how many points it found. Points are sorted by distance; at equal
+// Finds the k points that are nearest to `place` and at most max_distance away. Ignores the point `slot`. k
+// must be at most max_nearest. Returns how many points it found. Points are sorted by distance; at equal
 // distances, the lower slot comes first.
 std::uint32_t find_nearest(const NeighbourTree& tree, std::uint32_t slot, Vec3 place, std::uint32_t k,
                            float max_distance, std::span<Neighbour, max_nearest> found) noexcept;

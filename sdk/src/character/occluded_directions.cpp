@@ -16,8 +16,8 @@ void put(std::int8_t* out, Vec3 v) {
   out[2] = encode_coordinate(v.z);
 }
 
-// The normalised columns of a matrix. Without its scale, the inverse of such a matrix is its transpose. It is
-// used here to transform vectors from rest space to the mesh's space.
+// The normalised columns of a matrix that consists of a rotation and a uniform scale. Without the scale, the
+// inverse of the matrix is its transpose, which transforms directions from rest space to the mesh's space.
 struct Axes {
   Vec3 x, y, z;
 
@@ -75,8 +75,8 @@ void check_bent_normals(const CharacterModel& model) {
     throw Failure(NOOK_ERROR_UNSUPPORTED, "the model was baked without rest normals; bake it again");
 }
 
-// First writes the AO of each vertex as a byte into `out`, and later reads it back from there. So the
-// function needs no allocation.
+// To avoid an allocation, first writes the AO of each vertex as a byte into `out`, and then reads it from
+// there.
 void read_bent_normals(const Scene& scene, const Instance& instance, std::int8_t* out,
                        std::size_t stride_bytes) noexcept {
   read_ao_as(scene, instance, NOOK_FORMAT_UNORM8, out + 3, stride_bytes);

@@ -1,4 +1,4 @@
-// A k-d tree of points. A query costs about O(log n) for n points, for any distribution of the points.
+// A k-d tree of points. A query takes about O(log n) time for n points, however the points are distributed.
 #pragma once
 
 #include <cstdint>
@@ -24,14 +24,14 @@ class PlaceTree {
  private:
   struct Run {  // a range of order_; the middle point of the range splits it along an axis
     std::uint32_t first = 0, end = 0;
-    float distance = 0;  // lower bound of the distance to any point of the run
+    float distance = 0;  // lower bound for the distance from the query's place to the points of the run
     std::uint32_t middle() const { return first + (end - first) / 2; }
   };
-  // The tree halves runs until they are empty.
+  // Runs are halved until they are empty. 40 levels are enough for any number of points.
   static constexpr std::size_t max_depth = 40;
 
   void divide(Run run);
-  // Visits the points within `reach`, near points first. The visitor may reduce `reach` on the way.
+  // Visits the points within `reach`, near points first. The visitor may reduce `reach` during the visit.
   template <class Visitor>
   void visit(Vec3 at, const float& reach, Visitor visitor) const;
 

@@ -1,4 +1,4 @@
-// Where a posed body lies, and how large its bones are.
+// The position and size of a posed body, and the scale of its bones.
 #pragma once
 
 #include <algorithm>
@@ -10,8 +10,8 @@
 
 namespace nook {
 
-// A matrix within the admitted unevenness and shear lengthens a vector by less than 2 % more than the longest
-// axis.
+// BoneAxes::is_even allows a little shear and uneven scale. Such a matrix scales a vector by less than this
+// factor times the length of its longest axis.
 inline constexpr float bone_scale_margin = 1.02f;
 
 // A sphere that contains all key points and proxy spheres of a pose, and an upper bound of the bones' scales.
@@ -21,7 +21,8 @@ struct PoseBound {
   float scale = 1;
 };
 
-// bones has the model's bone count; longest_squared belongs to the longest axis of any bone.
+// `bones` must have one matrix for each bone of the model. longest_squared is the squared length of the
+// longest axis of any bone.
 inline PoseBound bound_of_bones(const LoadedModel& loaded, std::span<const Mat3x4> bones,
                                 float longest_squared) noexcept {
   PoseBound out;

@@ -43,16 +43,17 @@ bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ..
   return is_first;
 }
 
-// The check interprets the host's transforms in each way that a host may have confused with another. It
-// reports the readings under which the model's vertices match the host's. In the bind pose, several readings
-// may match. The best affine map between the two sets of vertices reveals a wrong place, unit, rotation or
-// mirroring of the whole pose.
+// Hosts may pass transforms of a different kind, layout or order than they declare. The check interprets the
+// transforms in each of these ways ("readings"). It reports the readings for which the model's vertices match
+// the host's vertices. In the bind pose, several readings may match. If the whole pose has a wrong place,
+// unit, rotation or mirroring, the best affine map between the two sets of vertices shows it.
 
 namespace {
 
 struct Distances {
   double max = INFINITY, rms = INFINITY;  // in metres, world space
-  std::size_t worst = 0;                  // index into the compared vertices
+  std::size_t worst = 0;                  // index of the vertex with the largest distance, among the compared
+                                          // vertices
 };
 
 // The data that is shared by all readings.
@@ -152,8 +153,8 @@ Distances compare(const Check& check) {
   return compare(check, [](const Point3& p) { return p; });
 }
 
-// For a vertex that follows one bone, returns the transform under which the vertex matches the host's.
-// Returns -1 if there is none.
+// For a vertex that follows one bone, returns the index of the transform with which it matches the host's
+// vertex. Returns -1 if no transform matches.
 std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, const Point3& host) {
   double nearest = 3 * check.tolerance_ws;
   std::int64_t fitting = -1;
@@ -185,9 +186,9 @@ std::size_t count_of_different(std::span<const Misplaced> all, std::int64_t (*ke
 }
 
 // For vertices at wrong places, looks for the transforms that would put them at the right places. If several
-// bones match the same transform, these bones do not move in the host's pose, like the bones below the root
-// in the bind pose. Then the function returns false, because the vertices probably belong to another frame.
-// If only a part of the vertices does not match, the text mentions both explanations.
+// bones match the same transform, the host's pose does not move these bones relative to each other, as in the
+// bind pose. Then the function returns false, because the vertices probably belong to another frame. If only
+// some of the vertices do not match, the text mentions both explanations.
 bool explain_by_order(const Check& check, PoseFinding& finding) {
   std::size_t off = 0;
   Vector<Misplaced> found(check.host.get_allocator());
@@ -216,7 +217,7 @@ bool explain_by_order(const Check& check, PoseFinding& finding) {
 }
 
 // Sets the tolerance in the unit of the host's vertices. This unit is estimated from the spread of the
-// vertices, and not from the transforms, which may be misread. A pose changes the spread only by a few tens
+// vertices, because the transforms may be interpreted wrongly. A pose changes the spread only by a few tens
 // of percent.
 void set_tolerance(Check& check, double tolerance) {
   Vector<Point3> at_rest(check.host.get_allocator());
@@ -249,7 +250,7 @@ PosedPoints points_of(const Check& check) {
           check.vertex_place};
 }
 
-// Tries pairs of mistakes that occur together, the most likely pair first.
+// Tries pairs of mistakes that are often made together. The most likely pair comes first.
 void explain_by_two_mistakes(Check& check, std::span<const Reading> single, PoseFinding& finding,
                              Memory* memory) {
   for (const Reading& reading : readings_of_two_mistakes(check.model, check.given, memory))
@@ -298,7 +299,7 @@ PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& sourc
   check.least_vertices = std::min<std::size_t>(count, 6);
   const Reading as_given(source, memory);
   PoseFinding finding;
-  // If the pose moves a vertex to a place that is not finite, the vertex counts as different.
+  // A vertex whose posed position is not finite is treated as different from the host's vertex.
   const bool is_readable = pose(check, as_given) && check.vertex.size() == count;
   const Distances distances = is_readable ? compare(check) : Distances{};
   const double unit = check.tolerance_ws / tolerance;

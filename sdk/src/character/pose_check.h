@@ -18,19 +18,19 @@ namespace nook {
 // The results of the check, for nook_pose_check_info.
 struct PoseFinding {
   nook_pose_fault fault = NOOK_POSE_FAULT_NONE;
-  double max_error = 0, rms_error = 0;  // in units of the bounding radius times the scale of the pose
+  double max_error = 0, rms_error = 0;  // divided by the bounding radius times the scale of the pose
   std::uint32_t worst_bone = 0;
   std::uint32_t fitting_skin = 0;
   double scale = 1;
   char text[512] = {};
 };
 
-// Adds a fault that explains the difference. Add the most likely fault first. Further faults are only
-// appended to the text, if it has room for them. Returns true if this was the first fault.
+// Adds a fault that explains the difference. Add the most likely fault first. Each further fault is only
+// appended to the text, if there is room for it. Returns true if this was the first fault.
 bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ...) NOOK_PRINTF(3, 4);
 
-// One way to interpret the host's transforms. If the host made a mistake, another reading than the host's own
-// fits the vertices.
+// One way to interpret the host's transforms. If the host made a mistake, a reading that differs from the
+// host's own fits the vertices.
 struct Reading {
   PoseSource source;
   Vector<std::int32_t> map;     // transform of each bone, replaces the source's map; empty: use the source's
@@ -38,7 +38,7 @@ struct Reading {
   bool is_transposed = false;   // rows and columns of the layout are swapped
   bool is_turned_back = false;  // the 3x3 part is transposed, but not the translation
   bool is_inverted = false;
-  int mirrored_axis = -1;  // the axis whose sign changes before and after the transform; -1: none
+  int mirrored_axis = -1;  // the axis that is mirrored both before and after the transform; -1: none
   double translation_scale = 1;
   nook_pose_fault fault = NOOK_POSE_FAULT_NONE;
 
@@ -67,7 +67,8 @@ double distance(const Point3& a, const Point3& b);
 // Returns the root mean square distance of the points from their mean, or 0 if there are no points.
 double spread(std::span<const Point3> points);
 
-// The input of explain_by_place: the vertices of the model and of the host, and the places of both.
+// The input of explain_by_place: the vertices that the model poses, the vertices that the host skinned, and
+// the place matrices of both.
 
 struct PosedPoints {
   std::span<const Point3> posed;  // posed by the model, with pose_place applied
@@ -87,8 +88,8 @@ struct SkinnedVertex {
 };
 
 // vertex_place must already be applied to the vertices, and `source` must have passed check_pose_source.
-// Distances up to `tolerance`, relative to the bounding radius, are treated as equal. Throws Failure if every
-// vertex follows some bone without a transform, and in the same cases as for_each_transform.
+// Distances up to `tolerance`, relative to the bounding radius, are treated as equal. Throws Failure in the
+// same cases as for_each_transform, and if no vertex has transforms for all of its bones.
 PoseFinding find_pose_fault(const CharacterModel& model, const PoseSource& source,
                             std::span<const SkinnedVertex> vertices, const Affine& vertex_place,
                             double tolerance, Memory* memory);

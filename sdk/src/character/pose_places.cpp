@@ -1,4 +1,5 @@
-// Explains a difference between a pose and a host's vertices that is the same for the whole body.
+// Explains a difference between the model's and the host's vertices, if one transform of the whole body
+// causes it.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,7 +9,7 @@
 namespace nook {
 namespace {
 
-// Finds the least-squares best affine map from one set of points to another set of the same size. Returns
+// Finds the affine map from one set of points to another set of the same size, by least squares. Returns
 // false if the points of the first set lie in a plane.
 bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_points, Affine& map) {
   Point3 from{}, to{};
@@ -37,7 +38,8 @@ bool best_map(std::span<const Point3> from_points, std::span<const Point3> to_po
   return true;
 }
 
-// Returns the scale of a map if it is a similarity to 1 %, mirrored or not. Otherwise returns 0.
+// Returns the scale of a map if it is a similarity within 1 %. The similarity may be mirrored. Otherwise
+// returns 0.
 double scale_of_similarity(const Affine& map) {
   const double scale = std::cbrt(std::abs(determinant(map)));
   double difference = 0;
@@ -87,7 +89,7 @@ Affine from_columns_4x3(const Affine& place) {
   return out;
 }
 
-// True if the model's vertices match the host's with this place.
+// Returns true if the model's vertices match the host's vertices when the pose has this place.
 bool fits_under(const PosedPoints& points, const Affine& place) {
   const Affine map = place * inverse(points.pose_place);
   for (std::size_t v = 0; v < points.posed.size(); ++v) {
@@ -97,8 +99,8 @@ bool fits_under(const PosedPoints& points, const Affine& place) {
   return true;
 }
 
-// Tries to explain the difference by a place that the host has, but did not pass or passed in another form.
-// true_place is the place with which the vertices would match.
+// Tries to explain the difference by a place that the host uses for its vertices, but did not pass with the
+// pose, or passed in a wrong form. With true_place, the vertices would match.
 bool explain_by_known_place(const PosedPoints& points, const Affine& true_place, PoseFinding& finding) {
   const Affine none, &given = points.pose_place;
   const double tolerance_m = points.tolerance_ws;
@@ -139,7 +141,7 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
   return false;
 }
 
-// Returns the axis of the character's space along which a map mirrors, as text to follow "mirror image".
+// Returns the axis of the character's space that a map mirrors, as text that can follow "mirror image".
 // Returns an empty text if the map also rotates.
 const char* mirrored_axis(const Affine& map, double scale, const Affine& place) {
   const Affine own = inverse(place) * map * place;

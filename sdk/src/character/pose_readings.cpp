@@ -46,7 +46,8 @@ void add_skins(const CharacterModel& model, const PoseSource& given, Memory* mem
                     : given.kind == NOOK_POSE_REST_TO_WORLD ? NOOK_POSE_FAULT_NO_BIND
                                                             : NOOK_POSE_FAULT_KIND;
     out.push_back(reading);
-    // Perhaps the host passed the matrices of this skin, but in the joint order of the skin that it named.
+    // The host may have passed the matrices of this skin, but in the joint order of the skin that it
+    // specified.
     if (given.kind != NOOK_POSE_SKINNING || !given.transform_of_bone.empty()) continue;
     reading.map = map_of_skin(model, given.skin, memory);
     out.push_back(reading);
@@ -126,7 +127,8 @@ Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& gi
   return out;
 }
 
-// With a wrong layout, no kind matches. So each other layout is also tried together with each other kind.
+// If the layout is wrong, a reading with another kind cannot match either. So each other layout is also tried
+// together with each other kind.
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory) {
   Vector<Reading> out(memory);

@@ -1,5 +1,5 @@
-// Recorded poses of a game, for `nook bake character --calibrate`. A file is a sequence of records, so a host
-// can append records to it. A record holds one pose of one body:
+// Poses that were recorded in a game, for `nook bake character --calibrate`. A file is a sequence of records,
+// so a host can append records to it. A record holds one pose of one body:
 //
 //   offset  bytes  what
 //   0       8      "NOOKPOSE"

@@ -19,7 +19,7 @@ const char* name_of(const CharacterModel& model, std::size_t bone) {
   return model.bone_names[bone].c_str();
 }
 
-// Returns the model's index for the skin with this index in the file.
+// Returns the index in BindData::skins of the skin that has the index file_index in the file.
 std::uint32_t find_skin(const CharacterModel& model, std::uint32_t file_index) {
   const Vector<SkinBind>& skins = model.bind.skins;
   const auto found = std::find_if(skins.begin(), skins.end(),
@@ -181,8 +181,8 @@ std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone
 
 namespace {
 
-// Returns true if the matrix has almost a uniform scale and almost no shear. Exporters and rounding to floats
-// cause such small deviations. The caller then uses the matrix unchanged.
+// Returns true if the caller should use the matrix unchanged, because its scale is almost uniform and it has
+// almost no shear. Exporters and rounding to float cause such small deviations.
 bool is_kept(const BoneAxes<double>& axes) {
   constexpr double kept = 1e-4;
   const double shortest = std::min({axes.squared[0], axes.squared[1], axes.squared[2]});
@@ -194,7 +194,7 @@ Affine nearest_with_one_scale(const Affine& matrix, const std::array<double, 3>&
   return nearest_mirroring_similarity(matrix, fixed).matrix;
 }
 
-// Returns true if the bone's matrix has shear or an uneven scale.
+// Converts one bone. Returns true if its matrix has shear or an uneven scale.
 bool convert_bone(const CharacterModel& model, const PoseSource& source, std::size_t bone,
                   std::uint32_t index, std::span<Mat3x4> bones, PoseNotes& notes) {
   const Affine matrix = bone_matrix(model, source, bone, read_transform(source, index));
@@ -307,7 +307,7 @@ void drop_shared_prefix(Names& names, Memory* memory) {
     if (!name.empty()) name.remove_prefix(shared);
 }
 
-// Returns the normalised form of a name, in which names are compared.
+// Returns the normalised form of a name. Names are equal if their normalised forms are equal.
 String key_of(std::string_view name, bool is_loose, Memory* memory) {
   String key(memory);
   for (const char c : name) {

@@ -21,7 +21,7 @@ struct PoseSource {
   nook_transform_layout layout = NOOK_TRANSFORM_ROWS_3X4;
   const float* transforms = nullptr;
   std::size_t stride = 0;                           // bytes, never 0 after check_pose_source
-  std::uint32_t transform_count = 0;                // check_pose_source subtracts surplus transforms
+  std::uint32_t transform_count = 0;                // after check_pose_source: without surplus transforms
   std::uint32_t given_count = 0;                    // set by check_pose_source: the host's original
                                                     // transform_count
   std::uint32_t file_skin = 0;                      // for NOOK_POSE_SKINNING: index of the skin in the file
@@ -71,7 +71,8 @@ void for_each_transform(const CharacterModel& model, const PoseSource& source, B
     }
   } else if (source.kind == NOOK_POSE_SKINNING) {
     const SkinBind& skin = model.bind.skins[source.skin];
-    // Different joints of a skin belong to different bones.
+    // Different joints of a skin belong to different bones, so a skin with fewer joints than the model has
+    // bones leaves bones without a transform.
     if (!source.is_partial && skin.joint_count < model.bone_count()) fail_without_joint(model, skin);
     for (std::uint32_t j = 0; j < skin.joint_count; ++j)
       body(std::size_t(model.bind.bone_of_joint[skin.first_joint + j]), j);
@@ -80,8 +81,8 @@ void for_each_transform(const CharacterModel& model, const PoseSource& source, B
   }
 }
 
-// Returns the matrix of a bone from its transform: place * transform * the matrix that this kind of
-// transforms needs.
+// Returns the matrix of a bone from its transform: place * transform * the bind matrix that transforms of
+// this kind need.
 Affine bone_matrix(const CharacterModel& model, const PoseSource& source, std::size_t bone,
                    const Affine& transform);
 
@@ -93,7 +94,7 @@ std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone
 // similarity to 1e-4 is returned unchanged.
 Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
 
-// Remarks for the log about a pose that was accepted. A bone is uneven if its matrix is sheared, scaled
+// Facts for the log about a pose that was accepted. A bone is uneven if its matrix is sheared, scaled
 // unevenly or has a zero axis; then it is projected.
 struct PoseNotes {
   std::uint32_t bones = 0;   // number of bones that the pose set
@@ -104,8 +105,9 @@ struct PoseNotes {
   bool is_place_uneven = false;
   std::uint32_t transforms_given = 0, transforms_used = 0;  // they differ if the host gave surplus transforms
 
-  // Topics are bits in a mask, so that each topic is logged only once. If all matrices of the pose are zero,
-  // as in a buffer that was not filled, only topic_zero is logged.
+  // The messages that can be logged about a pose, as bits of a mask. The mask records which were already
+  // logged, so that each is logged only once. If all matrices of the pose are zero, as in a buffer that was
+  // not filled, only topic_zero is logged.
   enum Topic : std::uint32_t { topic_uneven = 1, topic_zero = 2, topic_surplus = 4 };
   std::uint32_t topics() const {
     const bool is_all_zero = bones > 0 && zero == bones;
@@ -117,8 +119,8 @@ struct PoseNotes {
 };
 
 void note_uneven(PoseNotes& notes, std::size_t bone, const BoneAxes<double>& axes);
-// Returns the notes of a pose whose bone matrices are all even before they are multiplied by `place`. `place`
-// may be uneven.
+// Returns the notes of a pose in which only `place` can be uneven: before the multiplication by `place`, the
+// bone matrices are similarities.
 PoseNotes notes_of_place(const CharacterModel& model, const Mat3x4& place);
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT). Call it for a bone with uneven axes in a strict scene.
@@ -129,15 +131,16 @@ using UnevenBones = Vector<bool>;
 
 // Converts all bones. Throws Failure for a transform that is not finite or far too large. Also throws for a
 // missing transform unless the source is partial, and for an uneven transform if the source is strict.
-// `bones` must have one entry for each bone of the model, and so must `uneven` unless it is null. Only the
-// entries of bones with a transform change. After a failure, some entries may have changed.
+// `bones` must have one entry for each bone of the model. `uneven` must have the same length, unless it is
+// null. Only the entries of bones with a transform change. After a failure, some entries may have changed.
 PoseNotes convert_pose(const CharacterModel& model, const PoseSource& source, std::span<Mat3x4> bones,
                        UnevenBones* uneven = nullptr);
 
 // Finds a host's transforms by the names of bones.
 
-// For each bone, writes the index of the first of the host's names that matches, or -1. Returns the number of
-// bones with -1. A bone whose own name has no match takes the transform of the first bone of its joint.
+// For each bone, writes the index of the first name in the host's list that matches, or -1. Returns the
+// number of bones with -1. A bone whose own name has no match takes the transform of the first bone of its
+// joint.
 std::size_t map_bones(const CharacterModel& model, const nook_bone_map_desc& names,
                       std::span<std::int32_t> transform_of_bone, Memory* memory);
 

@@ -1,6 +1,6 @@
 // A scene as plain data, and the steps that evaluate it. The CPU path runs all of them. The GPU path runs
 // only the first step, resolve_casters, on the CPU. Shaders then compute the other steps from the same
-// fields. World space, metres.
+// fields. Positions and lengths are in world space, in metres.
 #pragma once
 
 #include <nook/experimental/nook_debug.h>
@@ -37,8 +37,8 @@ struct Plane {
   float offset = 0;
 };
 
-// Proxy spheres in world space. The pointers point into InstanceArrays::storage. The spheres' caster_weight
-// is stored in the model.
+// Proxy spheres in world space. The pointers point into InstanceArrays::storage. The caster_weight of the
+// spheres is in the model (RestSpheres).
 struct SphereLanes {
   float *x = nullptr, *y = nullptr, *z = nullptr;
   float* inverse_radius = nullptr;  // per metre
@@ -50,13 +50,16 @@ struct SphereLanes {
 struct PointLanes {
   float *x = nullptr, *y = nullptr, *z = nullptr;                          // fitted position, for self-shadow
   float *nx = nullptr, *ny = nullptr, *nz = nullptr;                       // fitted unit normal
-  float *surface_x = nullptr, *surface_y = nullptr, *surface_z = nullptr;  // here added casters are evaluated
+  float *surface_x = nullptr, *surface_y = nullptr, *surface_z = nullptr;  // the occlusion by other bodies
+                                                                           // and occluders is evaluated here
   float *surface_nx = nullptr, *surface_ny = nullptr, *surface_nz = nullptr;
   float* norm_sum = nullptr;       // sum over spheres of (solid angle * visibility)^gamma
-  float* shadow = nullptr;         // the model's shadow: norm_sum^(1 / gamma), saturated
+  float* shadow = nullptr;         // the model's self-shadow: norm_sum^(1 / gamma), after saturated() in
+                                   // kernel.h
   float* optical_depth = nullptr;  // composed form: sum of solid_depth over the casters
   float* open = nullptr;           // composed form: product over ground and occluders of 1 - form factor
-  float* added = nullptr;          // composed form: 1 - open * exp(-optical_depth); 0 is unshadowed
+  float* added = nullptr;          // composed form: occlusion by added casters, 1 - open *
+                                   // exp(-optical_depth)
   PointCodes shadow_codes;         // `shadow`, encoded for the linear layer
   PointCodes added_codes;
   std::uint32_t count = 0;
@@ -107,15 +110,15 @@ struct InstanceArrays {
 };
 InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory);
 
-// The clip that gives an instance its pose and its own AO.
+// The clip from which an instance gets its pose and the AO of its self-shadow.
 struct InstanceClip {
   Ref<const LoadedClips> clips;  // null: the host sets the pose, and the model computes the self-shadow
   FrameMix mix;                  // the time of the last set_clip or set_clips
-  // True if InstanceInput::bones are of an earlier pose, because only set_clips gave this one. Then `place`
-  // is its place, and decode_late_bones makes the bones (scene_clips.h).
+  // True if InstanceInput::bones still hold an earlier pose, because the current pose comes from set_clips.
+  // Then `place` is the place that set_clips got, and decode_late_bones computes the bones (scene_clips.h).
   bool is_late = false;
   Mat3x4 place;
-  std::uint64_t call = 0;  // Scene::clip_calls of the last set_clips that named the instance
+  std::uint64_t call = 0;  // the value of Scene::clip_calls at the last set_clips that included this instance
   bool is_used() const { return bool(clips); }
 };
 
@@ -123,10 +126,10 @@ struct InstanceClip {
 struct InstanceInput {
   explicit InstanceInput(Memory* memory) : bones(memory), uneven(memory), linked(memory), receivers(memory) {}
 
-  // These come first and together, because set_clips writes them for whole crowds.
+  // These fields come first and are next to each other, because set_clips writes them for whole crowds.
   std::uint64_t pose_revision = 0;  // incremented by every set_pose; never 0 for an instance in use
   // `bound` contains all key points and proxy spheres of the pose. Its centre is the model's bounding centre,
-  // transformed by the root bone. `scale` is an upper bound of the bones' scales.
+  // transformed by the root bone. `scale` is an upper bound of the scales of the bones.
   Sphere bound;
   float scale = 1;
   // True if the current pose is only on the GPU, and `bones` holds an earlier one (gpu_pose.h).
@@ -134,7 +137,7 @@ struct InstanceInput {
   InstanceClip clip;
 
   Vector<Mat3x4> bones;        // rest space to world, one for each bone of the model
-  UnevenBones uneven;          // of the current pose
+  UnevenBones uneven;          // the bones of the current pose that were projected
   std::uint32_t reported = 0;  // bits of the PoseNotes topics that were already logged for this instance
   bool has_ground = false;
   Plane ground;
@@ -148,8 +151,8 @@ struct InstanceInput {
 };
 
 // The ground is evaluated as a huge sphere. This is its radius, divided by the bounding radius of the body.
-// Seen from one bounding radius above the ground, the sphere's edge lies 0.0135 rad below the horizon. With
-// this radius, float precision is good enough: the surface of the sphere is exact to 1e-3 bounding radii.
+// Seen from one bounding radius above the ground, the edge of this sphere lies 0.0135 rad below the horizon.
+// In float precision, the surface of the sphere is exact to 1e-3 bounding radii, which is good enough.
 inline constexpr float default_ground_radii = 11'000;
 
 // What resolve_casters decided for an update. If an instance is not due, its lists come from an earlier
@@ -161,8 +164,8 @@ struct InstancePlan {
                                     // capacity
   Vector<std::uint32_t> occluders;  // slots of the free occluders that darken this instance
   Sphere ground_sphere;             // radius 0: the instance has no ground, or the ground is skipped
-  std::uint32_t culled = 0;         // number of casters and occluders that were skipped because they are
-                                    // below the cut-off
+  std::uint32_t culled = 0;         // number of casters and occluders that were skipped because their effect
+                                    // is below cutoff_error
   std::uint32_t level = 0;          // level of detail of the model, 0 is full detail
   bool due = true;                  // evaluated in this update; other instances keep their results
   std::uint64_t frame = 0;          // Scene::frame in which the lists were made; 0: never
@@ -174,20 +177,22 @@ struct InstanceResult {
   std::uint64_t transformed_revision = 0;  // pose_revision for which the spheres in `arrays` were computed
   std::uint64_t coarse_revision = 0;       // pose_revision of the coarse spheres
   std::uint64_t grouped_revision = 0;      // pose_revision of the groups
-  Receiver receiver;                       // made from the surface positions of the key points; only valid if
-                                           // casters may be grouped
+  Receiver receiver;                       // where casters darken the instance: computed from the surface
+                                           // positions of its key points; only valid if casters may be
+                                           // grouped
   std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
   bool has_added = false;  // true if PointLanes::added of the last evaluation is not zero everywhere
 };
 
-// The world casters of an instance in its pose, see pose_world_casters.
+// The world casters of an instance, posed by pose_world_casters.
 struct InstanceCasters {
   explicit InstanceCasters(Memory* memory) : posed(memory) {}
 
   Vector<PosedCaster> posed;  // one for each caster of the model; may be empty
   Sphere bound;               // contains all of `posed`
-  float strength = 0;         // square metres; at distance d, `posed` reduce AO by at most strength / d^2
+  float strength = 0;         // square metres; at a distance d, the casters in `posed` together reduce AO by
+                              // at most strength / d^2
   std::uint64_t posed_revision = 0;  // InstanceInput::pose_revision for which the fields above were computed;
                                      // 0: never posed
 };
@@ -218,12 +223,12 @@ struct SceneSettings {
   nook_form form = NOOK_FORM_DEFAULT;
   nook_isa isa = NOOK_ISA_AUTO;
   float cutoff_error = 1.0f / 1024;  // AO
-  float far_error = 1.0f / 1024;     // AO, rms
-  float lod_error = 0;               // AO, rms at lod_distance
+  float far_error = 1.0f / 1024;     // RMS difference in AO
+  float lod_error = 0;               // RMS difference in AO at lod_distance
   float lod_distance = 10;           // metres
   std::uint32_t lod_max_interval = 1;
   float ground_radius = 0;    // metres; 0: default_ground_radii times the body's bounding radius
-  bool strict_poses = false;  // set_pose fails for uneven matrices instead of projecting them
+  bool strict_poses = false;  // if true, set_pose fails for uneven matrices instead of projecting them
 };
 
 struct Scene {
@@ -243,8 +248,9 @@ struct Scene {
   std::uint32_t posed_on_gpu = 0;  // instances whose pose is on the GPU
   // Incremented when an instance or occluder is added or removed, and when an instance gets its first light.
   std::uint64_t structure_revision = 0;
-  std::uint64_t clip_calls = 0;  // of set_clips
-  // Rises when set_clips gives an instance other clips than it had, so that a GPU may need their tables.
+  std::uint64_t clip_calls = 0;  // number of calls of set_clips so far
+  // Incremented when set_clips gives an instance different clips. A GPU path may then have to upload the
+  // tables of these clips.
   std::uint64_t clips_revision = 0;
 
   std::uint32_t nearest = 0;       // k of link_nearest; 0: off
@@ -257,19 +263,21 @@ struct Scene {
   // False while only shaders update the scene. Then the instances have no InstanceArrays, and their lights
   // have no InstanceLight::storage.
   bool has_arrays = true;
-  // True after the first update on the CPU. Then the instances keep their arrays, from which the host reads.
+  // True after the first update on the CPU. Then the instances keep their arrays, because the host reads its
+  // results from them.
   bool was_updated_on_cpu = false;
 
-  // Scratch memory in which a whole pose is converted before it is set.
+  // Scratch memory. A whole pose is converted here before it is set, so that an invalid transform changes
+  // nothing.
   Vector<Mat3x4> converted;
   UnevenBones converted_uneven;
 
   std::uint64_t frame = 0;  // number of updates so far
-  nook_scene_info stats{};  // without memory_bytes
+  nook_scene_info stats{};  // all fields except memory_bytes
 };
 
-// ---- Edits: throw Failure for a bad id or value, and std::bad_alloc if memory runs out; then nothing
-// changes ----
+// ---- Edits: throw Failure for a bad id or value, and std::bad_alloc if memory runs out; after a throw, the
+// scene is unchanged ----
 nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model);
 void remove_instance(Scene& scene, nook_instance_id id);
 Instance& instance_of(Scene& scene, nook_instance_id id);
@@ -292,11 +300,11 @@ void set_ground(Scene& scene, nook_instance_id id, const Plane* plane);
 nook_occluder_id add_occluder(Scene& scene, const Sphere& sphere, nook_instance_id receiver = 0);
 void set_occluder(Scene& scene, nook_occluder_id id, const Sphere& sphere, nook_instance_id receiver = 0);
 void remove_occluder(Scene& scene, nook_occluder_id id);
-// Gives every instance the arrays in which an update on the CPU computes, and from now on every new one.
-// Allocates only after leave_arrays. Throws std::bad_alloc.
+// Allocates the InstanceArrays of every instance, for updates on the CPU. Instances that are added later get
+// their arrays too. Allocates only after leave_arrays. Throws std::bad_alloc.
 void make_arrays(Scene& scene);
-// Releases these arrays, because shaders update the scene. Does nothing after an update on the CPU, which
-// left results in them.
+// Releases the arrays of make_arrays, because shaders update the scene. Does nothing after an update on the
+// CPU, because the arrays then hold its results.
 void leave_arrays(Scene& scene) noexcept;
 
 // An id holds the slot + 1 in its low bits and the slot's generation in its high bits. When all generations
@@ -307,8 +315,8 @@ inline constexpr std::uint32_t max_slots = (1u << id_slot_bits) - 1;
 
 // ---- Steps of an update, in order; none allocates or throws ----
 
-// Returns whether the evaluator has results for the instance in a slot. The evaluator is the CPU path or a
-// GPU path. HasResult only keeps a reference to `function`, so the function object must outlive it.
+// Asks the evaluator, which is the CPU path or a GPU path, whether it has results for the instance in a slot.
+// HasResult only keeps a reference to `function`, so the function object must outlive it.
 class HasResult {
  public:
   template <class Function>
@@ -323,10 +331,10 @@ class HasResult {
   bool (*ask_)(const void* of, std::uint32_t slot);
 };
 
-// First chooses the levels of detail and the instances that are due. An instance without results is always
-// due. Then chooses casters, occluders and the ground sphere for each instance that is due. The casters are
-// the linked instances and the k nearest instances, without the casters that are below the cut-off. This step
-// needs only the poses.
+// First chooses the levels of detail, and the instances that are evaluated in this update ("due"). An
+// instance without results is always due. Then chooses casters, occluders and the ground sphere for each
+// instance that is due. The casters are the linked instances and the k nearest instances. Casters whose
+// effect is below cutoff_error are skipped. This step needs only the poses.
 void resolve_casters(Scene& scene, HasResult has_result) noexcept;
 // Computes the world-space spheres of an instance at the levels that it and its receivers may need.
 void transform_spheres(const Scene& scene, Instance& instance) noexcept;
@@ -342,8 +350,8 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept;
 // Runs all steps above for all instances, and computes the statistics. The instances must have their arrays.
 void update(Scene& scene) noexcept;
 
-// Blends the key points to vertices, and writes the AO of the last update in file order. `out` holds one
-// value for each file vertex of the model, stride_bytes apart.
+// Computes the AO of the vertices from the key points of the last update, and writes it in file order. `out`
+// holds one value for each file vertex of the model, stride_bytes apart.
 void read_ao(const Scene& scene, const Instance& instance, float* out, std::size_t stride_bytes) noexcept;
 // Like read_ao, but writes the values in the format `format`.
 void read_ao_as(const Scene& scene, const Instance& instance, nook_format format, void* out,
@@ -353,8 +361,8 @@ void read_ao_as(const Scene& scene, const Instance& instance, nook_format format
 void read_directional_ao(const Scene& scene, const Instance& instance, float* out,
                          std::size_t stride_bytes) noexcept;
 
-// Poses the world casters of an instance if the instance's pose has changed since the last call. Neither
-// allocates nor throws.
+// Poses the world casters of an instance if its pose has changed since the last call. Does not allocate or
+// throw.
 void pose_world_casters(Instance& instance) noexcept;
 
 // Returns an occluder as a caster.

@@ -44,12 +44,12 @@ void pose_world_casters(Instance& instance) noexcept {
 }
 
 // Chooses which instances are due in an update, and their levels of detail. Then chooses the casters of each
-// of them: linked instances, the k nearest instances, free occluders and the ground, except for casters below
-// the cut-off.
+// due instance: linked instances, the k nearest instances, free occluders and the ground. Skips casters whose
+// effect is below cutoff_error.
 
 namespace {
 
-// Returns an upper bound of how much a caster darkens a vertex. The caster's spheres have sum(weight *
+// Returns an upper bound for the AO that a caster takes from a vertex. The caster's spheres have sum(weight *
 // radius^2) = strength, and their centres are at least `gap` away from the vertex's key points. A form factor
 // is at most (radius / distance)^2. 1 - exp(-x) and 1 - exp(-solid_depth(x)) are at most x, because their
 // slopes are 1 at 0 and decrease from there.
@@ -71,8 +71,8 @@ float term_bound(KernelForm form, float delta) {
   return 1 / (delta * delta);
 }
 
-// Returns an upper bound for a single sphere. A sphere increases the norm of a shadow by at most its term,
-// and AO changes by at most max_alpha_sum times that.
+// Returns an upper bound for a single sphere. A sphere increases the norm by at most its term, and AO changes
+// by at most max_alpha_sum times the term.
 float paper_bound(const LoadedModel& receiver, float radius, float gap) {
   return gap > radius ? receiver.max_alpha_sum * term_bound(receiver.model.kernel.form, gap / radius)
                       : INFINITY;
@@ -175,8 +175,9 @@ void place_ground(const Scene& scene, Instance& receiver) {
     ++receiver.plan.culled;
 }
 
-// Distant instances take turns: each is evaluated at least every lod_max_interval frames. They use the
-// coarsest level whose error is acceptable at their distance.
+// Decides whether the instance is due, and chooses its level. Distant instances take turns: each is evaluated
+// at least every lod_max_interval frames. An instance uses the coarsest level whose error is acceptable at
+// its distance.
 void choose_detail(const Scene& scene, std::uint32_t slot, bool has_result, Instance& instance) {
   instance.plan.level = 0;
   instance.plan.due = true;

@@ -60,7 +60,7 @@ bool is_within(const PoseBound& bound) {
          is_near(bound.radius) && bound.scale <= max_pose_scale;
 }
 
-// First tests the common bound of all frames. It is already known, and is nearly always small enough.
+// First tests the precomputed bound of all frames, which is nearly always small enough.
 void check_bound(const LoadedClips& clips, const nook_instance_clip& given, std::size_t index) {
   const Mat3x4 place = place_of(given);
   const float scale = std::sqrt(axes_of(place).longest_squared);
@@ -114,8 +114,8 @@ void take_clip(Scene& scene, const Ref<const LoadedClips>& clips, const nook_ins
   ++input.pose_revision;
 }
 
-// Prefetches a later instance. A crowd does not fit into the caches, so most of the time of an instance would
-// be spent waiting for memory.
+// Prefetches an instance that is processed later. A crowd does not fit into the caches, so without
+// prefetching, most of the time would be spent waiting for memory.
 void fetch_ahead(const Scene& scene, std::span<const nook_instance_clip> given, std::size_t index) noexcept {
   constexpr std::size_t ahead = 8, line = 64;
   if (index + ahead >= given.size()) return;

@@ -18,8 +18,8 @@ constexpr std::uint32_t slot_in(std::uint32_t id) {
   return (id & max_slots) - 1;
 }
 
-// Returns the slot for the next object: a free slot, or one past the end. Also reserves memory to put the
-// slot into the free list later.
+// Returns the slot for the next object: a free slot, or one past the end. Also reserves memory in the free
+// list, so that the slot can be freed later without an allocation.
 template <class Object>
 std::uint32_t next_slot(const Vector<Object>& objects, Vector<std::uint32_t>& free_slots, const char* what) {
   if (!free_slots.empty()) return free_slots.back();
@@ -305,8 +305,8 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
   const CharacterModel& model = instance.model->model;
   source.is_strict = source.is_strict || scene.settings.strict_poses;
   check_pose_source(model, source);
-  // The bones that a partial pose leaves out keep their matrices. With a pose on the GPU, these matrices
-  // would be from an older pose.
+  // Bones that a partial pose does not set keep their matrices. If the current pose is on the GPU, the
+  // matrices on the CPU are from an older pose, so a partial pose is refused.
   if (source.is_partial) {
     need_cpu_pose(instance);
     decode_late_bones(instance);

@@ -58,8 +58,8 @@ std::size_t join_paper_norm(const Scene& scene, const Instance& instance, const 
 }
 
 // Adds the body's own spheres to norm_sum, and returns the number of sphere-key-point pairs. If the instance
-// has a light, evaluates each sphere instead of the tree. Directional occlusion also evaluates each sphere,
-// and its colours are relative to this sum.
+// has a light, evaluates each sphere instead of the tree. The reason is that directional occlusion evaluates
+// each sphere too, and divides its coloured sums by this sum.
 std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const SphereSoa spheres = spheres_of(instance, instance.plan.level);
   const SphereTree& tree = instance.model->sphere_tree;
@@ -250,7 +250,7 @@ void mix_weights(const Instance& instance, Self self, ClipWeights& weights) {
   if (self == Self::clip) mix_ao_weights(clip.clips->set, clip.mix, weights.data());
 }
 
-// Decodes the clip's AO for the slots of the chunk into `own`.
+// Writes the clip's AO for the slots of the chunk to `own`.
 void decode_clip(const Instance& instance, const ClipWeights& weights, const LinearView& chunk,
                  std::uint32_t first_slot, ChunkAo& own) {
   decode_ao(*instance.input.clip.clips, weights.data(), first_slot, chunk.block_count * linear_block_vertices,
@@ -262,7 +262,7 @@ const float* open_bias_of(const LoadedModel& loaded, Self self) {
 }
 
 // Calls put(place, number) for each file vertex. `place` is the vertex's output address: vertices are
-// stride_bytes apart. `convert` converts the AO of a whole chunk to another type at once.
+// stride_bytes apart. `convert` converts the AO of a whole chunk to the type Number.
 template <class Number, class Stride, class Convert, class Put>
 void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride stride_bytes,
                  Convert&& convert, Put&& put) noexcept {

@@ -1,5 +1,4 @@
-// Reports about the instances of a scene: their memory, and the shapes that the scene evaluates, for debug
-// drawing.
+// Reads the memory use of a scene's instances, and for debug drawing, the shapes that the scene evaluates.
 #pragma once
 
 #include <nook/experimental/nook_debug.h>
@@ -30,7 +29,7 @@ std::uint32_t key_point_count(const Instance& instance) noexcept;
 // Returns the number of casters of the instance's last update that are still in the scene.
 std::uint32_t link_count(const Scene& scene, const Instance& instance) noexcept;
 
-// `out` must have room for as many elements as the functions above return.
+// `out` must have room for the number of elements that the functions above return.
 void read_spheres(const Instance& instance, nook_scene_sphere* out) noexcept;
 void read_key_points(const Instance& instance, nook_scene_key_point* out) noexcept;
 void read_links(const Scene& scene, const Instance& instance, nook_instance_id* out) noexcept;

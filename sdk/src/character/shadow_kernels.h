@@ -3,8 +3,8 @@
 //
 // These are the steps of a frame. First, pose_spheres and pose_key_points transform the model to world space.
 // Then self_norm_sum and norm_root compute the shadow at each key point, and composed_depth, exact_open and
-// composed_occlusion compute the occlusion by other casters. Finally, encode_points and linear_layer blend
-// both to the vertices.
+// composed_occlusion compute the occlusion by other casters. Finally, encode_points and linear_layer compute
+// the AO of the vertices from both.
 #pragma once
 
 #include <cstddef>
@@ -17,8 +17,8 @@
 
 namespace nook {
 
-// Key points come in groups of this many. Arrays over key points have padded_key_points(count) entries. The
-// padding must hold finite values; pose_key_points fills it.
+// The kernels process key points in groups of this size. Arrays over key points have padded_key_points(count)
+// entries. The padding must hold finite values; pose_key_points fills it.
 inline constexpr std::uint32_t key_point_group = 16;
 constexpr std::uint32_t padded_key_points(std::uint32_t count) {
   return (count + key_point_group - 1) / key_point_group * key_point_group;
@@ -56,8 +56,8 @@ struct KeyPointSoa {
   std::uint32_t padded_count = 0;  // a multiple of key_point_group
 };
 
-// The outputs of pose_spheres and pose_key_points. You can then pass the same arrays to the other kernels as
-// SphereSoa and KeyPointSoa.
+// Arrays that pose_spheres and pose_key_points write. You can then pass the same arrays to the other kernels
+// as SphereSoa and KeyPointSoa.
 struct SphereTarget {
   float* x = nullptr;
   float* y = nullptr;
@@ -95,7 +95,8 @@ struct RestKeyPointView {
 };
 
 // The posed nodes and spheres of a tree. World space, metres. Each array holds the nodes first, then the
-// spheres. The values have the form that the plain sum of the default kernel needs (shadow_nook_of_mass).
+// spheres. The values have the form that shadow_nook_of_mass needs, which is the term of the default kernel
+// with gamma 1.
 struct PosedSphereTree {
   static constexpr std::uint32_t max_spheres = 256, max_masses = 512;  // there is one node less than there
                                                                        // are spheres
@@ -105,8 +106,8 @@ struct PosedSphereTree {
   float core[max_masses];      // square metres, added to the squared distance
   float mass[max_masses];      // square metres: 3/4 of the squared radius, or for a node, 3/4 of the sum of
                                // squared radii
-  float reach[max_spheres];  // squared distance in square metres, only for nodes: for key points closer than
-                             // this, use the node's halves instead
+  float reach[max_spheres];    // only for nodes: a squared distance in square metres; for key points that are
+                               // closer, the node's two halves are used instead of the node
 };
 // The two halves of a node. Each is the index of a node or sphere in PosedSphereTree. A node has a smaller
 // index than its halves.
@@ -120,13 +121,13 @@ struct SphereTreeView {
   const PosedSphereTree* pose = nullptr;
 };
 
-// 16 vertices of the linear layer, as a small dense matrix. The matrix has a column for each key point that
-// at least one of the vertices uses. A column takes only a few instructions for all 16 vertices. Without
+// The weights of 16 vertices of the linear layer, as a small dense matrix. It has a column for each key point
+// that at least one of the vertices uses. A column takes only a few instructions for all 16 vertices. Without
 // blocks, each entry of each vertex would need its own load. Columns are stored in pairs, because processors
 // can sum two products of 16-bit numbers in one instruction. The two key points of pair p of the block are in
-// key_points[first_pair + p]. The alphas of the pair start at alpha[32 (first_pair + p)], and the blend
-// weights at blend[32 (first_pair + p)]; the two values of a vertex are next to each other. If the number of
-// columns is odd, a last column without weights is added.
+// key_points[first_pair + p]. The pair's values start at alpha[32 (first_pair + p)] and blend[32 (first_pair
+// + p)]. There, the two values of each vertex are next to each other. If the number of columns is odd, a last
+// column without weights is added.
 struct LinearBlock {
   std::uint32_t first_pair = 0;
   std::uint32_t pairs = 0;
@@ -152,7 +153,7 @@ struct LinearView {
   // one load reads both.
   const std::uint32_t* key_points = nullptr;
   const std::int16_t* alpha = nullptr;
-  const std::int16_t* blend = nullptr;  // blend weights, in the layout of alpha
+  const std::int16_t* blend = nullptr;  // blend weights, in the same layout as `alpha`
   float alpha_step = 1, blend_step = 1;
   const float* open_bias = nullptr;  // 1 - bias, for each slot
   // The limits for encode_points. With codes up to these limits, the sum of every vertex fits into 32 bits.
@@ -164,28 +165,28 @@ struct ShadowKernels {
   Isa isa = Isa::scalar;
   const char* name = nullptr;
 
-  // sum[k] += sum over spheres of y^gamma. To add several sets of spheres to one norm, call the function once
-  // for each set, with the same key points. SIMD tables use the processor's fast estimates of roots. The
-  // shadow after norm_root differs by at most 2e-4 from the formulas in double precision; above 1, this error
-  // is relative.
+  // sum[k] += sum over spheres of y^gamma. To add several sets of spheres to the same sum, call the function
+  // once for each set, with the same key points. SIMD tables use the processor's fast estimates of roots.
+  // Therefore the shadow after norm_root can differ from the formulas in double precision: by at most 2e-4,
+  // or by the relative error 2e-4 if the shadow is above 1.
   void (*self_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                         float* sum);
   // Computes the same sum for the default kernel and gamma 1, but replaces far spheres by nodes of a tree.
-  // Each group of key points uses the largest nodes whose reach does not touch the group's box. Returns the
-  // number of evaluated pairs of a key point and a sphere or node.
+  // Each group of key points uses the largest nodes for which the whole box of the group is farther away than
+  // the node's `reach`. Returns the number of evaluated pairs of a key point and a sphere or node.
   std::uint64_t (*tree_sum)(const SphereTreeView& tree, const KeyPointSoa& points, float* sum);
-  // shadow[k] = saturated(sum[k]^(1 / gamma), saturation[k]); sum and shadow may be the same array.
+  // shadow[k] = saturated(sum[k]^(1 / gamma), saturation[k]). `sum` and `shadow` may be the same array.
   void (*norm_root)(const float* sum, const float* saturation, std::uint32_t padded_count, float gamma,
                     float* shadow);
 
   // depth[k] += solid_depth(sum over spheres of caster_weight * form factor), with the fast formula of the
-  // form factor. Pass the spheres of one caster, and the surface key points.
+  // form factor. Pass the spheres of one caster, and key points with surface positions and normals.
   void (*composed_depth)(const SphereSoa& spheres, const KeyPointSoa& points, float* depth);
   // open[k] *= 1 - min(1, caster_weight * form factor) for each sphere, with the exact formula of the form
   // factor. Pass the spheres of the ground or of free occluders. If caster_weight is NULL, all weights are 1.
   void (*exact_open)(const SphereSoa& spheres, const KeyPointSoa& points, float* open);
-  // occlusion[k] = 1 - open[k] * exp(-depth[k]). If `depth` is NULL, it counts as 0; if `open` is NULL, it
-  // counts as 1.
+  // occlusion[k] = 1 - open[k] * exp(-depth[k]). NULL for `depth` means 0 everywhere, and NULL for `open`
+  // means 1 everywhere.
   void (*composed_occlusion)(const float* depth, const float* open, std::uint32_t padded_count,
                              float* occlusion);
 
@@ -207,10 +208,10 @@ struct ShadowKernels {
   void (*pose_key_points)(const RestKeyPointView& rest, const Mat3x4* bones, Vec3 offset_ws,
                           const KeyPointTarget& out, const KeyPointTarget* surface);
 
-  // Directional occlusion (directional_occlusion.h). rgb and inverse have one array of padded_count entries
-  // for each channel. rho is the mean radiance behind a sphere, relative to the mean radiance of the
-  // hemisphere. rgb[k] += sum over spheres of y^gamma rho, by bands (directional_occlusion.h): the coloured
-  // form of self_norm_sum.
+  // The following functions compute directional occlusion (directional_occlusion.h). `rgb` and `inverse` have
+  // one array of padded_count entries for each channel. rho is the mean radiance behind a sphere, relative to
+  // the mean radiance of the hemisphere. directional_norm_sum is the coloured form of self_norm_sum: rgb[k]
+  // += sum over spheres of y^gamma rho. rho is computed from bands 0 to 2 of the light.
   void (*directional_norm_sum)(const SphereSoa& spheres, const KeyPointSoa& points, const Kernel& kernel,
                                const LightBands& light, float* const* rgb);
   // inverse[k] = inverse_hemisphere at key point k. The next two functions need it.
@@ -225,11 +226,11 @@ struct ShadowKernels {
   // Like directional_open, for the sphere of the ground. `up` is the unit normal of the ground's plane.
   void (*directional_ground)(const SphereSoa& ground, const KeyPointSoa& points, const LightView& light,
                              Vec3 up, float* const* rgb);
-  // The coloured form of linear_layer. It multiplies the self-shadow of linear_layer by (sum alpha *
-  // coloured) / (sum alpha * shadow), see vertex_light_ratio. Because of this factor, the light of the key
-  // points also changes the bias. This is important for vertices whose key points are darker than the vertex:
-  // their self-shadow is a small difference of large values. If `occlusion` is NULL, evaluates only
-  // self-shadow. For any input, the results are in [0, 1].
+  // The coloured form of linear_layer. It multiplies the vertex's self-shadow, including the bias, by (sum
+  // alpha * coloured) / (sum alpha * shadow), see vertex_light_ratio. Without the factor on the bias,
+  // vertices whose key points are darker than the vertex would get wrong colours, because their self-shadow
+  // is a small difference of large values. If `occlusion` is NULL, evaluates only self-shadow. For any input,
+  // the results are in [0, 1].
   void (*directional_linear_layer)(const LinearView& layer, const float* shadow, const float* const* coloured,
                                    const float* const* occlusion, float* const* rgb);
 };
@@ -242,8 +243,8 @@ const ShadowKernels& best_shadow_kernels();
 
 }  // namespace nook
 
-// Declares the functions that return the tables of the instruction sets; each set has its own translation
-// unit. Use a table only on a processor that has the instruction set.
+// Declares, for each instruction set, the function that returns its table. Each instruction set has its own
+// translation unit. Use a table only on a processor that has the instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs) \
   namespace nook::isa_##name {                   \
     const ShadowKernels& kernels();              \

@@ -3,11 +3,15 @@
 //   isa, its Isa,
 //   Float, a vector of `width` numbers with the operations of core/simd_scalar.h,
 //   broadcast, load and store,
-//   Whole, as many whole numbers, and CodePair, two 16-bit numbers for all lanes: code_pair(low, high) of the
-//   halves of a word, add_products(p, codes, sum), which adds the products of each lane's two numbers from p
-//   on, load_pairs(p, first, second) of the same numbers, and store_codes(low, high, a) of PointCodes.
+//   Whole, a vector of `width` integers, and CodePair, a pair of 16-bit integers that is the same in all lanes,
+//   code_pair(low, high), which makes a CodePair from the two halves of a word,
+//   add_products(p, codes, sum), which reads two integers for each lane from p on, multiplies them by the
+//   CodePair and adds the products to `sum`,
+//   load_pairs(p, first, second), which loads the same integers, and
+//   store_codes(low, high, a), which stores codes in the form of PointCodes.
 // Everything here has internal linkage, or a mangled name that contains a type of the instruction set.
-// Otherwise the linker could merge code for a newer processor into a function that an older one runs.
+// Otherwise the linker could merge equal functions, and keep the copy that uses instructions which an older
+// processor does not have.
 
 namespace {
 
@@ -126,10 +130,10 @@ Float shadow_of_mass(const PosedSphereTree& tree, std::uint32_t i, const Points<
                              broadcast(tree.softness[i]), broadcast(tree.mass[i]));
 }
 
-// Number of groups of key points that choose their nodes together. Each group has one bit in a word.
+// Number of groups of key points for which the nodes are chosen at once. Each group has one bit in a word.
 constexpr std::uint32_t batch_groups = 32;
 
-// The extents of the groups' boxes along one axis.
+// The extents of the boxes of all groups along one axis.
 struct Extents {
   alignas(64) float low[batch_groups];
   alignas(64) float high[batch_groups];
@@ -171,7 +175,7 @@ struct GroupBoxes {
       z.put(g, points.z + k);
     }
   }
-  // Returns a mask with a bit for each group; the bit is set if the group is within the reach of node n.
+  // Returns a mask in which the bit of a group is set if the group is within the reach of node n.
   std::uint32_t near(const PosedSphereTree& tree, std::uint32_t n) const {
     const Float at_x = broadcast(tree.x[n]), at_y = broadcast(tree.y[n]), at_z = broadcast(tree.z[n]),
                 reach = broadcast(tree.reach[n]);
@@ -196,14 +200,14 @@ void transpose_bits(std::uint32_t (&row)[32]) {
       }
 }
 
-// The masses that each group of a batch uses. A group uses a node if it is outside the node's reach but
-// within the reach of all of the node's ancestors. It uses a sphere if it is within the reach of all of the
-// sphere's ancestors.
+// The masses (nodes and spheres) that each group of a batch uses. A group uses a node if it is outside the
+// node's reach but within the reach of all of the node's ancestors. It uses a sphere if it is within the
+// reach of all of the sphere's ancestors.
 struct ChosenMasses {
   static constexpr std::uint32_t words = PosedSphereTree::max_masses / 32;
 
   std::uint32_t count = 0;       // number of words in use
-  std::uint32_t bit[words][32];  // the bits of masses 32 w to 32 w + 31 are in bit[w][group]
+  std::uint32_t bit[words][32];  // bit[w][group] holds the bits of masses 32 w to 32 w + 31
 
   ChosenMasses(const SphereTreeView& tree, const GroupBoxes& boxes) : count((2 * tree.nodes + 32) / 32) {
     const auto groups = [&](std::uint32_t mass) -> std::uint32_t& { return bit[mass / 32][mass % 32]; };

@@ -1,5 +1,5 @@
-// The coloured forms of the kernels: each term of a sphere is multiplied by the light behind the sphere.
-// Include this file after shadow_kernels_impl.inl, in the same namespace.
+// The coloured forms of the kernels: the term of each sphere is multiplied by rho, the relative light behind
+// the sphere. Include this file after shadow_kernels_impl.inl, in the same namespace.
 
 namespace {
 

@@ -1,8 +1,8 @@
 // Transforms from rest space to world space with four floats at a time. The file is included inside an
 // instruction set's namespace, after it has defined
 //   Four, a vector of four floats with Four(float), +, -, *, /, fma, max and sqrt,
-//   load_four(p), store(p, a) and transpose(a, b, c, d), which swaps rows and columns of a 4 x 4 matrix. The
-// matrix of a bone takes three loads, one for each row. Four blended key points are transposed, so that each
+//   load_four(p), store(p, a) and transpose(a, b, c, d), which swaps rows and columns of a 4 x 4 matrix.
+// The matrix of a bone takes three loads, one for each row. Four blended key points are transposed, so that each
 // coordinate can be stored in its own array.
 
 namespace {
@@ -12,7 +12,7 @@ Four inverse_root(Four a) {
   return Four(1.0f) / sqrt(a);
 }
 
-// Four matrices: m[4 * r + c] holds the element in row r and column c of each of them.
+// Four matrices. m[4 * r + c] holds the element in row r and column c of all four matrices.
 struct FourMatrices {
   Four m[12];
 };

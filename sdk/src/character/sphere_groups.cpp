@@ -7,7 +7,8 @@
 namespace nook {
 namespace {
 
-// The spheres order[begin...end], with their centre and their second moments along the axes.
+// The spheres order[begin] up to but not including order[end], with their centre and their second moments
+// along the axes.
 struct Group {
   std::uint32_t begin = 0, end = 0;
   Vec3 centre, moment;
@@ -45,7 +46,7 @@ float along_longest(const Group& group, Vec3 p) {
   return m.x >= m.y && m.x >= m.z ? p.x : m.y >= m.z ? p.y : p.z;
 }
 
-// Each half gets at least one sphere.
+// Splits a group into two. Each half gets at least one sphere.
 std::array<Group, 2> split(const CharacterModel& model, Vector<std::uint32_t>& order, const Group& group) {
   const auto from = order.begin() + group.begin, to = order.begin() + group.end;
   const float middle = along_longest(group, group.centre);

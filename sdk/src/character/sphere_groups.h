@@ -1,9 +1,10 @@
 // Merges the spheres of a caster into a few spheres, for distant receivers.
 //
-// A far sphere reduces AO by weight * radius^2 * cos / d^2, like the field of a charge of `mass` = weight *
-// radius^2. If spheres are close together as seen from the receiver, one sphere at their centre with the sum
-// of their masses acts like all of them. cos / d^2 is the field of a dipole, which is harmonic. So the error
-// of a group is of second order in the extent of the group, and is 0 if the extent is the same in all
+// At a distance d, a sphere reduces AO by mass * cos / d^2 with `mass` = weight * radius^2, where cos is the
+// cosine between the receiver's normal and the direction to the sphere. This is like the field of a charge.
+// If several spheres are close together as seen from the receiver, one sphere at their centre with the sum of
+// their masses has almost the same effect. cos / d^2 is the field of a dipole, which is harmonic. So the
+// error of a group is of second order in the extent of the group, and is 0 if the extent is the same in all
 // directions. The nearest part of the receiver determines the error. Therefore two bodies whose arms cross
 // use their single spheres, not groups.
 #pragma once
@@ -29,8 +30,8 @@ class SphereGroups {
   // group at its centre, across its longest axis.
   explicit SphereGroups(const CharacterModel& model, Memory* memory = default_memory());
 
-  // Group g of tier t consists of member[first[g]...first[g + 1]]: spheres for t = 0, otherwise groups of
-  // tier t - 1.
+  // Group g of tier t consists of member[first[g]] up to but not including member[first[g + 1]]. For t = 0,
+  // the members are spheres, otherwise groups of tier t - 1.
   struct Tier {
     AlignedArray<std::uint32_t> first, member;
     std::uint32_t count() const {
@@ -52,8 +53,8 @@ struct GroupLanes {
   std::uint32_t count = 0;
 };
 
-// The places at which a receiver is darkened: their bounding box, and a sample of the places, in metres.
-// Without any place, the box is empty.
+// The places at which a receiver is darkened: their bounding box, and a sample of the places, in metres. If
+// there are no places, the box is empty.
 struct Receiver {
   static constexpr std::uint32_t samples = 16;
 
@@ -67,10 +68,9 @@ Receiver receiver_of(const float* x, const float* y, const float* z, std::uint32
 
 // Merges `parts` into the groups of a tier. `parts` are the posed spheres, or the groups of the previous
 // tier. A group gets the mass and centre of its parts. Its radius is chosen so that it has the same spread as
-// its parts: along each axis, the spread of a disc is a quarter of its squared radius. part_moments are the
-// moments of the groups of the previous tier, or null for spheres. The moment of a group is computed from the
-// pose. So a group whose parts have moved apart in the pose has a large moment and is not used near the
-// receiver.
+// its parts. A disc of radius r has the spread r^2 / 4 along each of its axes. part_moments are the moments
+// of the groups of the previous tier, or null for spheres. The moment of a group is computed from the pose.
+// So a group whose parts have moved apart in the pose has a large moment and is not used near the receiver.
 void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const float* part_moments,
                   const GroupLanes& out);
 
@@ -78,8 +78,8 @@ void merge_groups(const SphereGroups::Tier& tier, const SphereSoa& parts, const 
 // group of several spheres lies in the receiver's box. The largest second derivative of cos / d^2 is 6 / d^4,
 // so the error is at most half of 6 * moment / d^4. Half of the receiver faces away, and the mean square of
 // cos over the other half is 1/3, which gives 1.2 * moment / d^4. The result is the mean over the samples,
-// but at least 1/16 of the estimate for the nearest point of the box, because the samples can miss a near
-// arm.
+// but at least 1/16 of the estimate for the nearest point of the box, because the samples can miss a part
+// that is near, such as an arm.
 float group_error(const GroupLanes& groups, const Receiver& receiver);
 
 }  // namespace nook

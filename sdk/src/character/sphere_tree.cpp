@@ -7,9 +7,9 @@
 namespace nook {
 namespace {
 
-// The estimated error of a single node may be this many times the allowed error. Errors of several nodes add
-// up, but the weights of the key points reduce them. On baked bodies, the resulting rms error of AO is 0.8 to
-// 1.0 times the allowed error.
+// The estimated error of a single node may be this many times the allowed error. The errors of several nodes
+// add up, but the linear layer averages them over key points. On baked bodies, the resulting rms error of AO
+// is 0.8 to 1.0 times the allowed error.
 constexpr float share_of_node = 1.4f;
 
 using Spheres = std::span<std::uint32_t>;
@@ -19,7 +19,7 @@ float coordinate(const CharacterModel& model, std::uint32_t sphere, int axis) {
   return axis == 0 ? centre.x : axis == 1 ? centre.y : centre.z;
 }
 
-// Returns the number of spheres in the first half, which is at least one, but not all.
+// Returns the number of spheres in the first half, which is at least 1 and less than the number of spheres.
 std::uint32_t split(const CharacterModel& model, Spheres spheres) {
   int longest = 0;
   float extent = -1, middle = 0;
@@ -67,7 +67,7 @@ Vector<SphereTreeNode> nodes_of(const CharacterModel& model, Spheres all, Memory
   return nodes;
 }
 
-// Sums over the spheres of a node, or the same values of one sphere.
+// Sums over the spheres of a node. For a leaf, the values of its single sphere.
 struct Moments {
   float mass = 0;    // square metres: the sum of squared radii
   Vec3 centre;       // weighted by mass
@@ -103,9 +103,9 @@ constexpr float softness_of_variance = 0.21f;
 // Half of all key points face away, and the mean square of cos over the other half is 1/3. This gives an RMS
 // error of 1.2 * spread / d^4. It equals `error` at the squared distance sqrt(1.2 * spread / error).
 //
-// Two lower limits apply to the reach. Within three standard deviations, the series is not valid. Within the
-// distance of the farthest sphere, a key point may lie next to a single sphere and be fully in its shadow.
-// The sphere may be too small to affect the spread.
+// Two lower limits apply to the reach. First, at distances below three standard deviations, the series is not
+// valid. Second, closer than the farthest sphere, a key point may be next to a single sphere and fully in its
+// shadow. This sphere may be too small to affect the spread.
 void put_node(const Moments& m, std::uint32_t n, float inverse, float inverse_error, PosedSphereTree& out) {
   const float variance = m.spread * inverse, radius_squared = m.fourth * inverse;
   put_mass(m, n, radius_squared + softness_of_variance * variance, radius_squared, out);

@@ -2,8 +2,8 @@
 //
 // For the plain sum of the default kernel (gamma 1), a far sphere shades by radius^2 * cos / d^2, like the
 // field of a charge. If spheres are close together as seen from a key point, one sphere at their centre with
-// the sum of their squared radii acts like all of them. The error is of second order in the extent of the
-// node. Each group of 16 neighbouring key points uses the same nodes.
+// the sum of their squared radii has almost the same effect. The error is of second order in the extent of
+// the node. Each group of 16 neighbouring key points uses the same nodes.
 #pragma once
 
 #include <cstdint>
@@ -18,9 +18,9 @@ namespace nook {
 // The nodes of a model's spheres, which do not depend on the pose.
 class SphereTree {
  public:
-  // Splits the spheres in the rest pose, each time in the middle of the longest side of their box, until each
-  // part is a single sphere. The tree is empty if the model has a single sphere or too many spheres for
-  // PosedSphereTree, or if its shadow is not a plain sum of the default kernel.
+  // Splits the spheres in the rest pose until each part is a single sphere. Each split is in the middle of
+  // the longest side of the bounding box. The tree is empty if the model has a single sphere or too many
+  // spheres for PosedSphereTree, or if its shadow is not a plain sum of the default kernel.
   explicit SphereTree(const CharacterModel& model, Memory* memory = default_memory());
 
   bool is_empty() const { return nodes_.size() == 0; }
@@ -33,9 +33,9 @@ class SphereTree {
   AlignedArray<SphereTreeNode> nodes_;
 };
 
-// Merges the posed spheres into the nodes of the tree, and sets the reach of each node. For a key point
-// outside its reach, a node changes the shadow by less than a fixed multiple of `error`. This is an estimate,
-// not a bound. `error` is in AO.
+// Merges the posed spheres into the nodes of the tree, and sets the reach of each node. Farther away than its
+// reach, a node changes the shadow by less than a fixed multiple of `error`. This is an estimate, not a
+// strict bound. `error` is a difference in AO.
 SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float error, PosedSphereTree& out);
 
 }  // namespace nook

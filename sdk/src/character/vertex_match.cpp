@@ -9,24 +9,24 @@
 namespace nook {
 namespace {
 
-// If a candidate's cosine is below the best candidate's cosine by at least this value, the candidate belongs
-// to another side of the surface. Smaller differences are ignored, because hosts smooth normals, and bend
-// them on cards and leaves.
+// For each candidate, we compute the cosine between its normal and the host's normal. If the cosine is at
+// least this much below the best candidate's cosine, the candidate belongs to another side of the surface.
+// Smaller differences are ignored, because hosts smooth normals, and bend them on cards and leaves.
 constexpr float other_side = 0.7f;
 
-// A host normal within 5 degrees of the model's normal is treated as the same normal. This allows for the
-// model's steps of 2 degrees and for 8-bit normals of the host. A normal that is 10 degrees away is treated
-// as a different one.
+// A host normal within 5 degrees of the model's normal is treated as the same normal. This covers the
+// quantisation of the model's normals (2 degrees) and of 8-bit normals of the host. A normal that is 10
+// degrees away is treated as different.
 constexpr float fitting_cosine = 0.9962f, unfitting_cosine = 0.9848f;
 
-// Limit for the sum of absolute differences of the weights. It allows for half an 8-bit step in each of 8
-// weights. If no candidate is within this limit, the host's weights belong to another skin.
+// Limit for the sum of absolute differences between two sets of weights. It covers an error of half an 8-bit
+// step in each of 8 weights. If no candidate is within this limit, the host's weights belong to another skin.
 constexpr float fitting_weights = 0.1f;
-// Limit that allows only for the quantisation of the file's weights.
+// A smaller limit, which covers only the quantisation of the weights in the model file.
 constexpr float weight_steps = 2e-4f;
 
-// If the AO of two vertices differs by less than this in every pose, it counts as equal. This allows for half
-// an 8-bit step and for the error of a bake.
+// If the AO of two vertices differs by less than this in every pose, it is treated as equal. The limit covers
+// half an 8-bit step and the error of a bake.
 constexpr float equal_ao = 0.01f;
 
 constexpr float unknown_weights = -1;
@@ -36,9 +36,9 @@ struct Fit {
   const Candidate* candidate = nullptr;
   float distance = 0;               // host's unit
   float facing = 1;                 // the cosine between the normals; 1 if there are no normals
-  float side = 1;                   // the cosine to the normal of the host's triangles; equals `facing` if
-                                    // the host passed no triangles
-  float weights = unknown_weights;  // the sum of absolute differences
+  float side = 1;                   // the cosine between the candidate's normal and the normal of the host's
+                                    // triangles; equals `facing` if the host passed no triangles
+  float weights = unknown_weights;  // the sum of absolute differences to the host's weights
 };
 using Fits = Vector<Fit>;
 
@@ -51,7 +51,8 @@ float alpha_of(const CharacterModel& model, std::uint32_t welded, std::uint16_t 
   return sum;
 }
 
-// Returns the largest amount by which `a` can be darker than `b`, if the shadow of each key point is 0 to 1.
+// Returns the largest amount by which vertex `a` can be darker than vertex `b`, if the shadow of each key
+// point is between 0 and 1.
 float darker_by(const CharacterModel& model, std::uint32_t a, std::uint32_t b) {
   const std::size_t first = std::size_t{a} * model.influences;
   float sum = model.bias[a] - model.bias[b];
@@ -120,13 +121,13 @@ void drop_other_sides(Fits& fits, bool has_face, const Fit* but) {
   const Candidate* const kept = but ? but->candidate : nullptr;
   float best = -1;
   for (const Fit& fit : fits) best = std::max(best, fit.side);
-  // If even the best candidate faces another side, no candidate belongs to the triangles of the vertex. Then
-  // the sides are not used.
+  // If even the best candidate faces another side than the triangles of the vertex, the sides cannot choose
+  // between the candidates, and are not used.
   if (has_face && best < other_side) return;
   drop(fits, [&](const Fit& fit) { return fit.side < best - other_side && fit.candidate != kept; });
 }
 
-// Compares the weights of all candidates whose weights are known.
+// Sets Fit::weights for all candidates whose weights are known.
 void set_weights(Fits& fits, const BoneWeights& bones) {
   for (Fit& fit : fits)
     if (fit.candidate->weights) fit.weights = weight_difference(bones, *fit.candidate->weights);
@@ -199,7 +200,8 @@ class Matcher {
 
   float slack_of_places(Memory* memory) const;
   void gather(std::uint32_t vertex, float reach, const Order& order);
-  // Returns the file vertex of a fit: the one that continues the host's order, or else the first one.
+  // A fit can stand for several file vertices. Returns the one that continues the host's order, or the first
+  // one if none does.
   std::uint32_t file_vertex(const Fit& fit, const Order& order) const;
   bool is_vertex_of(const Fit& fit, std::uint32_t file_vertex) const;
   const Fit* fit_of(std::uint32_t file_vertex) const;
@@ -216,14 +218,14 @@ class Matcher {
 };
 
 // Returns by how much the distance of the right candidate may exceed the smallest distance. If the host's
-// positions are exact, this only allows for rounding. If the host stores fewer bits, it allows for the steps
-// of both.
+// positions are exact, this only covers rounding. If the host stores positions with fewer bits, this covers
+// the steps of the host's and of the model's positions.
 float Matcher::slack_of_places(Memory* memory) const {
   constexpr float model_steps = 65535, exact_share = 0.9f, rounding = 5e-7f;
   float farthest = 0;
   for (const Vec3 p : places_) farthest = std::max({farthest, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-  // Meshes in different spaces may have the same coordinates, such as two equal objects in the left and the
-  // right hand. Their stored positions are rounded differently.
+  // Meshes in different spaces may have the same coordinates, for example the same object in the left and in
+  // the right hand. Their stored positions are rounded differently.
   const bool has_spaces =
       std::any_of(candidates_.begin(), candidates_.end(),
                   [&](const Candidate& candidate) { return candidate.space != candidates_.front().space; });
@@ -261,8 +263,8 @@ void Matcher::gather(std::uint32_t vertex, float reach, const Order& order) {
   const bool has_weights = fits_.size() > 1 && host_.weights.joint;
   if (has_weights) {
     set_weights(fits_, bones_of(host_.weights, vertex));
-    // If the host has exactly the file's weights, they are more reliable than a side, because some files have
-    // normals that point the wrong way.
+    // If the host's weights are equal to the file's weights, they are more reliable than the side, because
+    // some files have normals that point the wrong way.
     drop_other_weights(fits_, weight_steps);
   }
   if (fits_.size() > 1 && (has_normal || has_face))
@@ -291,8 +293,8 @@ std::uint32_t Matcher::file_vertex(const Fit& fit, const Order& order) const {
   return fit.candidate->file_vertex;
 }
 
-// Returns null if no criterion decides. If the previous match was unambiguous, its successor is preferred to
-// the vertex with the same index.
+// Chooses between the remaining candidates. Returns null if no criterion decides. If the previous match was
+// unambiguous, the file vertex after it is preferred to the file vertex with the host vertex's index.
 const Fit* Matcher::decide(const Order& order) const {
   const Fit* const successor = order.is_sure ? fit_of(order.successor) : nullptr;
   if (successor && order.is_kept()) return successor;
@@ -316,7 +318,8 @@ VertexMatches Matcher::match(std::span<std::uint32_t> file_vertices, Memory* mem
       if (out.unmatched++ == 0) out.first_unmatched = i;
       continue;
     }
-    // If a candidate has bit-exactly the host's position, all candidates at other positions are excluded.
+    // If the position of a candidate is bit-exactly the host's position, all candidates at other positions
+    // are excluded.
     gather(i, nearest_[i] == 0 ? 0 : nearest_[i] + slack, order);
     order.number = first + i;
     const Fit* decided = fits_.size() == 1 ? &fits_[0] : decide(order);
