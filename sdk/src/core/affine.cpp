@@ -92,8 +92,8 @@ V3 any_perpendicular(const V3& a) {
   return scaled(p, 1 / std::sqrt(dot(p, p)));
 }
 
-// Returns the columns of a rotation, computed from the first two columns of `a`. If a column vanishes,
-// another direction replaces it.
+// Returns the columns of a rotation, computed from the first two columns of `a`. If a column becomes 0, it is
+// replaced by another direction.
 std::array<V3, 3> gram_schmidt(const std::array<V3, 3>& a) {
   V3 x = a[0];
   const double nx = std::sqrt(dot(x, x));
@@ -115,8 +115,8 @@ V3 rotate(const V3& axis, double angle, const V3& v) {
 }
 
 // Uses equation 7 of Mueller, Bender, Chentanez, Macklin 2016, "A Robust Method to Extract the Rotational
-// Part of Deformations". The result is a rotation even for mirrored and flattened matrices. The plain polar
-// factor would not be a rotation there.
+// Part of Deformations". The result is a rotation even for mirroring matrices and for matrices that flatten
+// space. For these, the polar factor is not a rotation.
 std::array<V3, 3> nearest_rotation(const std::array<V3, 3>& a) {
   std::array<V3, 3> r = gram_schmidt(a);
   for (int step = 0; step < 100; ++step) {

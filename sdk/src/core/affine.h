@@ -1,5 +1,5 @@
-// Affine transforms in double precision. In float precision, chains of nodes below a scale of 0.01 would lose
-// too many digits.
+// Affine transforms in double precision. Float precision would lose too many digits in chains of nodes under
+// a node with scale 0.01.
 #pragma once
 
 #include <array>

@@ -23,7 +23,8 @@ class ByteWriter {
   void u32(std::uint32_t value) { little(value, 4); }
   void u64(std::uint64_t value) { little(value, 8); }
   void f32(float value) { u32(bit_cast<std::uint32_t>(value)); }
-  // Writes seven bits per byte, low bits first. The top bit of a byte is set if more bytes follow.
+  // Writes seven bits of the value per byte, the lowest first. The top bit of a byte is set if more bytes
+  // follow.
   void varint(std::uint32_t value) {
     for (; value >= 128; value >>= 7) u8(value | 128);
     u8(value);

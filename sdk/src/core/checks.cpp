@@ -59,7 +59,7 @@ void check_switch(const char* name, std::int32_t value) {
 
 namespace {
 
-// Maximum size of an array. Differences of addresses are signed, so it is PTRDIFF_MAX.
+// Maximum size of an array. It is PTRDIFF_MAX, because differences of addresses are signed.
 constexpr std::size_t max_array_bytes = PTRDIFF_MAX;
 
 }  // namespace

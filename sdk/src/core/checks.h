@@ -1,5 +1,5 @@
 // Checks values from a host or a file. Each function throws Failure if the value is invalid. The message
-// contains the name of the value, the value itself and what is needed.
+// contains the name of the value, the value itself and the values that are allowed.
 #pragma once
 
 #include <nook/nook.h>
@@ -44,8 +44,8 @@ concept CheckedNumber = std::integral<Number> || std::floating_point<Number>;
 // Throws Failure with the text "NAME is unknown (got GOT, need 0 to LAST)".
 [[noreturn]] void fail_unknown(const char* name, std::int32_t got, std::int32_t last);
 
-// Throws unless `fits` is true. `need` says in words what is needed, such as "0 or more". Floats must also be
-// finite.
+// Throws unless `fits` is true. `need` is a text for the message that says which values are allowed, such as
+// "0 or more". Floats must also be finite.
 template <CheckedNumber Number>
 void check_fits(const char* name, Number value, bool fits, const char* need,
                 nook_result code = NOOK_ERROR_INVALID_ARGUMENT) {
@@ -68,12 +68,13 @@ void check_index(const char* name, std::size_t index, std::size_t count);
 void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
 
 // Returns the distance in bytes between consecutive elements of the caller's array: `stride`, or
-// element_bytes if `stride` is 0. Throws INVALID_ARGUMENT if elements overlap, or if `count` elements at this
-// distance are more than an address space can hold. `name` is the name of the stride.
+// element_bytes if `stride` is 0. Throws INVALID_ARGUMENT if elements overlap, or if if `count` elements at
+// this distance do not fit into an address space. `name` is the name of the stride, for the message.
 std::size_t checked_stride(const char* name, std::size_t stride, std::size_t count,
                            std::size_t element_bytes);
 
-// Like checked_stride, for tightly packed arrays. `name` is the name of the count.
+// Checks the size of a tightly packed array in the same way. `name` is the name of the count, for the
+// message.
 void check_array(const char* name, std::size_t count, std::size_t element_bytes);
 
 // Checks a switch, which must be 0 or 1.

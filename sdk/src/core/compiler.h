@@ -2,10 +2,10 @@
 // compiler-specific attributes.
 #pragma once
 
-// NOOK_PRINTF(format, first): parameter `format` is a printf format string, and the compiler checks the
-// arguments from parameter `first` on against it. Parameters are counted from 1, or from 2 in member
-// functions. On MinGW, the attribute `printf` stands for Microsoft's format without %zu and %llu. But on
-// MinGW, libstdc++ uses the standard printf functions, so NOOK_PRINTF uses the attribute `gnu_printf` there.
+// NOOK_PRINTF(format, first): the parameter with the index `format` is a printf format string. The compiler
+// checks that the arguments from index `first` on match it. Indices start at 1, or at 2 in member functions.
+// On MinGW, the attribute `printf` stands for Microsoft's format without %zu and %llu. But on MinGW,
+// libstdc++ uses the standard printf functions, so NOOK_PRINTF uses the attribute `gnu_printf` there.
 #if defined(__MINGW32__) && !defined(__clang__)
 #define NOOK_PRINTF(format_parameter, first_parameter) \
   __attribute__((format(gnu_printf, format_parameter, first_parameter)))

@@ -64,10 +64,11 @@ class Container {
 // Writes the correct checksum into modified bytes. Tests use it to reach the code that runs after the
 // checksum test.
 void repair_checksum(std::span<std::byte> bytes);
-// The kind and size of a file are in this many bytes at its start, the head.
+// The number of bytes of the head. The head is the start of a file, and contains the kind and the size of the
+// file.
 inline constexpr std::size_t container_head_bytes = 40;
 // Returns the kind of a file, so that a tool can choose a reader. Returns 0 if the bytes are not a .nook
-// file. You need only pass the head of the file.
+// file. It is enough to pass the head of the file.
 FourLetters container_kind(std::span<const std::byte> bytes);
 // Returns the file size that is stored in the head, or 0 if the bytes are not a .nook file.
 std::uint64_t container_size(std::span<const std::byte> bytes);

@@ -1,5 +1,5 @@
-// The standard containers, which allocate from a Memory. A container of containers passes its Memory on to
-// its elements.
+// The standard containers, with an allocator that uses a Memory. A container of containers passes its Memory
+// on to its elements.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 namespace nook {
 
 // Assignment and swap do not change a container's allocator. Move construction takes over the allocator of
-// the source. A copy uses default_memory(), so that it can outlive the original's memory.
+// the source. A copy uses default_memory(), so that the copy can outlive the Memory of the original.
 template <class T>
 class Allocator {
  public:
@@ -36,8 +36,8 @@ class Allocator {
   void deallocate(T* first, std::size_t count) noexcept {
     memory_->deallocate(first, count * sizeof(T), alignof(T));
   }
-  // Passes this allocator to elements whose constructor takes one as its last argument. Constructs all other
-  // elements without it.
+  // If the element's constructor takes an allocator as its last argument, passes this allocator. Otherwise
+  // constructs the element without an allocator.
   template <class U, class... Arguments>
   requires(std::uses_allocator<U, Allocator<U>>::value) void construct(U* place, Arguments&&... arguments) {
     ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)..., Allocator<U>(memory_));

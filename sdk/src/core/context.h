@@ -22,9 +22,9 @@ class Context : public RefCounted {
 
   Memory* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
-  // Returns the instruction set that the host chose, or NOOK_ISA_AUTO. The chosen set is available.
+  // Returns the instruction set that the host chose, which is available on this processor, or NOOK_ISA_AUTO.
   nook_isa isa() const noexcept { return isa_; }
-  // Returns how many of the host's length units are one metre.
+  // Returns the length of one metre in the host's unit.
   float units_per_metre() const noexcept { return units_per_metre_; }
   // Logs a printf-style text, truncated to 512 characters. Does nothing if the host set no log.
   void log(nook_log_severity severity, const char* format, ...) const noexcept NOOK_PRINTF(3, 4);

@@ -1,6 +1,6 @@
-// Handles the versions of structs in the C interfaces. New versions may append fields to a struct. So the
-// struct of a caller that was compiled with an older or newer header can be smaller or larger than the
-// library's struct.
+// Handles the versions of structs in the C interfaces. New versions may append fields to a struct. If the
+// caller was compiled with an older header, its struct is smaller than the library's struct. With a newer
+// header, it is larger.
 #pragma once
 
 #include <nook/nook.h>
@@ -18,9 +18,9 @@ namespace nook {
 // equal, and the minor version must not be newer than the library's.
 void check_version(std::uint32_t version);
 
-// A descriptor's NOOK_DESC_ value, the name of its init function and its defaults. Each library specialises
-// these three for its descriptors. The specialisations are made from one list, descriptor_list.h in the
-// folder of its C functions.
+// For a descriptor type: its NOOK_DESC_ value, the name of its init function, and its defaults. Each library
+// specialises these three for its descriptors. The specialisations are generated from a list, which is
+// descriptor_list.h in the folder of the library's C functions.
 template <class Desc>
 inline constexpr std::uint32_t descriptor_type = 0;
 template <class Desc>
@@ -28,8 +28,8 @@ inline constexpr const char* descriptor_init = nullptr;
 template <class Desc>
 Desc default_desc();
 
-// The size of a struct in release 1.0. When you append a field to a struct, specialise this with the old
-// size.
+// The size of a struct in release 1.0. When you append a field to a struct for the first time, specialise
+// this with the old size.
 template <class Struct>
 inline constexpr std::size_t first_size = sizeof(Struct);
 
@@ -70,7 +70,7 @@ const Ext* find_extension(const void* next) {
   return nullptr;
 }
 
-// Throws if the chain contains an extension of another type, or an extension twice.
+// Throws if the chain contains an extension that is not one of the types Ext, or an extension twice.
 template <class... Ext>
 void check_extensions(const void* next) {
   if constexpr (sizeof...(Ext) == 0) {
@@ -96,8 +96,8 @@ void check_extensions(const void* next) {
 
 // Returns a copy of the caller's struct in this library's version. Fields that are missing in the caller's
 // struct get their defaults. Fields that this library does not know, from a newer header, must be 0. `next`
-// of the struct may point to extensions of the types Ext; get them with find_extension. Read each extension
-// with this function, too, and pass the same list of types as Ext.
+// of the struct may point to extensions of the types Ext; get them with find_extension. Use this function
+// also to read each extension, with the same list of types as Ext.
 template <class Desc, class... Ext>
 Desc read_descriptor(const Desc* desc) {
   need(desc, "desc");

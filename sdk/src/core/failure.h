@@ -11,8 +11,9 @@ namespace nook {
 
 class Failure : public std::exception {
  public:
-  // Takes a printf-style text that says what is wrong, the value, and what is needed. The C functions add
-  // their names to it. The text is truncated to the size of the buffer, so throwing does not allocate.
+  // Takes a printf-style text, which should say what is wrong, the value, and which values are allowed. The C
+  // function that reports the failure adds its name to the text. The text is truncated to the size of the
+  // buffer, so throwing does not allocate.
   Failure(nook_result code, const char* format, ...) noexcept NOOK_PRINTF(3, 4);
 
   nook_result code() const noexcept { return code_; }

@@ -7,8 +7,8 @@
 namespace nook {
 namespace {
 
-// An unsigned integer of 192 bits, lowest word first. The largest number that occurs here has 155 bits: ten
-// times 2^151, the scale of subnormal floats.
+// An unsigned integer of 192 bits, lowest word first. The largest number that occurs here is 10 * 2^151,
+// which has 155 bits. 2^151 is the scale of subnormal floats.
 class Whole {
  public:
   explicit Whole(std::uint32_t value) : words_{value} {}
@@ -61,12 +61,13 @@ Whole sum(Whole a, const Whole& b) {
   return a;
 }
 
-// A positive float as the fraction value / scale. `below` and `above` are half of the distances to the
-// neighbouring floats, in the same scale. A decimal number between value - below and value + above is read
-// back as this float.
+// A positive float as the fraction value / scale. `below` and `above` are half the distances to the next
+// smaller and the next larger float, multiplied by the same scale. A decimal number between value - below and
+// value + above is read back as this float.
 struct Interval {
   Whole value, below, above, scale;
-  bool closed;  // true if both ends are read back as this float, too, because a tie goes to the even mantissa
+  bool closed;  // true if both ends of the interval are also read back as this float, because a tie is
+                // rounded to the even mantissa
 };
 
 Interval interval_of(std::uint32_t bits) {
@@ -91,8 +92,8 @@ void shift(Interval& interval) {
   for (Whole* number : {&interval.value, &interval.below, &interval.above}) number->multiply(10);
 }
 
-// Scales the interval so that its upper end is in [1/10, 1). Returns the exponent of the power of ten by
-// which it was divided.
+// Divides the interval by a power of ten, so that its upper end is in [1/10, 1). Returns the exponent of the
+// power.
 int normalise(Interval& interval) {
   int power = 0;
   for (; reaches(interval); ++power) interval.scale.multiply(10);
@@ -104,8 +105,8 @@ int normalise(Interval& interval) {
   }
 }
 
-// Removes the next digit from a normalised interval, and returns it. Sets `last` if the digits so far,
-// rounded to the nearer side, are inside the interval.
+// Removes the next digit from a normalised interval, and returns it. Sets `last` if the digits so far are
+// enough: after rounding the last one, they are inside the interval.
 int next_digit(Interval& interval, bool& last) {
   shift(interval);
   int digit = 0;
@@ -121,7 +122,8 @@ int next_digit(Interval& interval, bool& last) {
 }  // namespace
 
 // Implements R. G. Burger, R. K. Dybvig, Printing Floating-Point Numbers Quickly and Accurately, PLDI 1996,
-// with exact integers. Speed does not matter, because a pass writes only a few literals.
+// with exact integers. Speed does not matter, because only a few literals are written for the shaders of a
+// pass.
 FloatLiteral float_literal(float value) {
   FloatLiteral literal{};
   char* out = literal.text;

@@ -7,7 +7,7 @@
 
 namespace nook {
 
-// Metres. A sphere is a capsule whose ends are equal.
+// A capsule, in metres. If both ends are equal, it is a sphere.
 struct Capsule {
   Vec3 a, b;
   float radius_a = 0, radius_b = 0;
@@ -29,8 +29,8 @@ inline bool is_place(Vec3 p) {
   return std::abs(p.x) <= max_metres && std::abs(p.y) <= max_metres && std::abs(p.z) <= max_metres;
 }
 
-// Limits for the matrices of a pose, which map rest space to world space. These limits are larger than any
-// world needs, but the squares of transformed positions are still finite.
+// Limits for the matrices of a pose, which map rest space to world space. No world needs larger values.
+// Within the limits, the squares of transformed positions are finite.
 constexpr float max_pose_metres = 1e9f, max_pose_scale = 1e6f;
 
 // True if the matrix is within these limits. False if an element is not finite.

@@ -37,8 +37,8 @@ constexpr const char* isa_name(Isa isa) {
   return nullptr;
 }
 
-// Returns true if this build has the kernels and this processor can run them. Isa::scalar is always
-// available.
+// Returns true if this build contains the kernels of the instruction set and this processor can run them.
+// Isa::scalar is always available.
 bool isa_available(Isa isa);
 
 // Returns the instruction set for a public value. For NOOK_ISA_AUTO, returns the best available set. Throws
@@ -46,8 +46,8 @@ bool isa_available(Isa isa);
 // Failure(NOOK_ERROR_UNSUPPORTED) for a set that is not available; the message lists the available sets.
 Isa choose_isa(nook_isa asked);
 
-// These functions return true if both the processor and the operating system support the set. On processors
-// of another family, they return false.
+// These functions return true if both the processor and the operating system support the set. They return
+// false on processors of another family, such as ARM for an x86 set.
 
 bool processor_has_sse2();
 bool processor_has_avx2_and_fma();

@@ -1,9 +1,10 @@
 // The instruction sets of the CPU kernels, from the simplest to the best. NOOK_ISA_AUTO takes the last set
-// that can run. Each set has a folder with its name in sdk/src/isa, with its vector type, kernels and
-// compiler flags. Before you include this file, define
-//   NOOK_ISA_ENTRY(name, value, built, runs) `name` is the name of the folder, of the namespace isa_name and
-// of Isa::name. `value` is the value of the public header. `built` is 1 if this build has the kernels;
-// isa.cmake in the folder decides this. `runs` is true if the processor can run them.
+// that can run. For each set, there is a folder of the same name in sdk/src/isa. It contains the set's vector
+// type, kernels and compiler flags. Before you include this file, define
+//   NOOK_ISA_ENTRY(name, value, built, runs)
+// `name` is the name of the folder, and also part of the names of the namespace isa_name and of Isa::name.
+// `value` is the value in the public header. `built` is 1 if this build has the kernels; isa.cmake in the
+// folder decides this. `runs` is true if the processor can run them.
 
 NOOK_ISA_ENTRY(scalar, NOOK_ISA_SCALAR, NOOK_BUILT_SCALAR, true)
 NOOK_ISA_ENTRY(sse2, NOOK_ISA_SSE2, NOOK_BUILT_SSE2, processor_has_sse2())

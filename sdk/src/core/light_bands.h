@@ -1,8 +1,9 @@
-// Represents light, which is a sum of lobes, and densities over directions by their bands 0 to 2. Densities
-// are summed first and then combined with the light, so the cost of a density does not depend on the number
-// of lobes. The mean of the light under a density around d is
+// Bands 0 to 2 of light that is a sum of lobes, and of densities over directions. All densities are summed
+// before the sum is combined with the light. So the cost of a density does not depend on the number of lobes.
+// The mean of the light under a density around d is
 //   scalar + A1 dot(vector, d) + A2 dot(d, tensor d),
-// where A1 and A2 are the density's own bands: the means of its cosine to d and of (3 cosine^2 - 1) / 2.
+// where A1 and A2 are bands 1 and 2 of the density: the means of c and of (3 c^2 - 1) / 2, where c is the
+// cosine to d.
 //
 // Functions with a template parameter F work for every number type, like the kernels.
 #pragma once
@@ -32,8 +33,9 @@ struct LightBands {
   Vec3 scalar;     // mean radiance of all directions
   Vec3 vector[3];  // x, y, z
   Vec3 tensor[6];  // xx, yy, zz, and twice xy, yz, zx; its trace is 0
-  // Lower bound for the radiance of a hemisphere, > 0: a small share of the mean radiance of all directions.
-  // Fitted lobes can ring below 0 on the dark side. Without the bound, the ratios there would be extreme.
+  // Lower bound for the radiance of a hemisphere, > 0: a small fraction of the mean radiance of all
+  // directions. On the dark side, the sum of fitted lobes can be near 0 or below. Without the bound, ratios
+  // to it would be extreme.
   Vec3 darkest;
 };
 
@@ -42,8 +44,8 @@ struct LobeBands {
   float scalar = 0, vector = 0, tensor = 0;
 };
 
-// Returns a lobe's mean radiance over the sphere at amplitude 1, and the factors of its bands 1 and 2
-// relative to this mean.
+// Returns the mean radiance over the sphere of a lobe with amplitude 1, and its bands 1 and 2 relative to
+// this mean.
 inline LobeBands bands_of(float sharpness) {
   const std::array<float, 5> band = gaussian_bands(sharpness);
   return {gaussian_integral(sharpness) / gaussian_integral(0.0f), 3 * band[1], 7.5f * band[2]};
@@ -62,7 +64,7 @@ inline void add_lobe(LightBands& bands, Vec3 axis, Vec3 amplitude, const LobeBan
 }
 
 inline Vec3 darkest_of(std::span<const SphericalGaussian> lobes) {
-  // A hemisphere is never treated as darker than this share of the mean radiance.
+  // A hemisphere is never treated as darker than this fraction of the mean radiance of all directions.
   constexpr float darkest_share = 0.02f;
   Vec3 mean;
   for (const SphericalGaussian& lobe : lobes)

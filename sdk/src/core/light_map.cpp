@@ -20,7 +20,8 @@ constexpr Face faces[6] = {{{1, 0, 0}, {0, 0, -1}, {0, -1, 0}}, {{-1, 0, 0}, {0,
                            {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},   {{0, -1, 0}, {1, 0, 0}, {0, 0, -1}},
                            {{0, 0, 1}, {1, 0, 0}, {0, -1, 0}},  {{0, 0, -1}, {-1, 0, 0}, {0, -1, 0}}};
 
-// Returns the solid angle of the rectangle from the middle of a face to (x, y).
+// Returns the solid angle of the rectangle with one corner in the middle of a cube face and the opposite
+// corner at (x, y).
 double corner_angle(double x, double y) {
   return std::atan2(x * y, std::sqrt(x * x + y * y + 1));
 }

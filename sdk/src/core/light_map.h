@@ -10,13 +10,13 @@
 
 namespace nook {
 
-// The maximum radiance of a texel. With this limit, sums over any map are far below the maximum of a float.
+// The maximum radiance of a texel. The limit ensures that sums over a map are far below the largest float.
 inline constexpr float max_map_radiance = 1e15f;
 
-// A map in host memory, 3 floats for each texel.
+// The layout of a map in host memory. Each texel has 3 floats.
 enum class MapLayout : std::int32_t {
-  // Rows run from +y down to -y. The middle column is the direction +x. The column a quarter of the width
-  // further right is the direction +z.
+  // The first row is at +y, the last row at -y. The middle column shows the direction +x. The column a
+  // quarter of the width to its right shows the direction +z.
   latlong = 0,
   // Six faces of width x width texels, stacked vertically, in the order and with the axes of OpenGL.
   cube = 1,
@@ -45,7 +45,7 @@ double cube_cell_angle(std::uint32_t column, std::uint32_t row, std::uint32_t si
 // Returns the index of the cell that contains a direction.
 std::size_t cube_cell_at(Vec3 direction, std::uint32_t side);
 
-// Suns are light sources in a map that are so small and bright that a host draws them as separate lights with
+// A sun is a light source in a map that is very small and bright. Hosts draw suns as separate lights with
 // shadow maps. The remaining light is represented by lobes or probes.
 
 // A texel belongs to a sun if its luminance is more than this many times the mean luminance of the map
@@ -54,11 +54,12 @@ inline constexpr double sun_ratio = 100;
 
 struct MapSun {
   Vec3 direction;         // unit vector towards the centre of the sun's light
-  Vec3 irradiance;        // RGB on a surface that faces the sun, only from the sun's light above the limit
+  Vec3 irradiance;        // RGB irradiance of a surface that faces the sun, from the light that was removed
+                          // from the map
   float solid_angle = 0;  // solid angle of the sun's texels, in steradians
-  // The solid angle, in steradians, that a uniform disc has if its irradiance and its integral of squared
-  // luminance equal the sun's. Glare around a sun hardly affects this solid angle, because its texels contain
-  // little light even if there are many.
+  // The solid angle, in steradians, of a uniform disc that has the same irradiance and the same integral of
+  // squared luminance as the sun. Glare around a sun can cover many texels, but hardly affects this value,
+  // because these texels contain little light.
   float disc_solid_angle = 0;
 };
 

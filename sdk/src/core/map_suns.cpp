@@ -15,8 +15,8 @@ double luminance(Vec3 rgb) {
   return 0.2126 * double(rgb.x) + 0.7152 * double(rgb.y) + 0.0722 * double(rgb.z);
 }
 
-// Returns the solid angles of texels. For a latitude-longitude map, there is one for each texel of a column.
-// For a cube map, there is one for each texel of a face.
+// Returns the solid angles of texels: for a latitude-longitude map, of the texels of one column, and for a
+// cube map, of the texels of one face. Other columns and faces have the same values.
 Vector<double> solid_angles(const MapView& map, Memory* memory) {
   const std::uint32_t columns = map.layout == MapLayout::cube ? map.width : 1,
                       rows = map.layout == MapLayout::cube ? map.width : map.height;
@@ -59,8 +59,8 @@ struct NumberedSun {
   std::uint32_t number = 0;
 };
 
-// Assigns `number` to `first` and to all texels above the limit that are connected to it. `stack` is scratch
-// memory.
+// Assigns the sun `number` to the texel `first` and to all texels above the limit that are connected to it.
+// `stack` is scratch memory.
 NumberedSun gather_sun(const MapView& map, double limit, std::size_t first, std::size_t number,
                        Vector<std::uint32_t>& group, Vector<std::size_t>& stack) {
   NumberedSun found{{}, std::uint32_t(number)};
@@ -121,8 +121,8 @@ Vector<MapSun> take_suns(const MapView& map, Vector<float>& rgb, Memory* memory,
   for (std::size_t first = 0; first < group.size(); ++first)
     if (group[first] == in_no_group)
       found.push_back(gather_sun(map, limit, first, found.size(), group, stack));
-  // If a sun exceeds the limit by less than float precision, it has no light and no direction, so it is
-  // dropped.
+  // If the texels of a sun exceed the limit by less than float precision, the sun has no light and no
+  // direction, so it is dropped.
   const std::size_t groups = found.size();
   std::erase_if(found, [](const NumberedSun& one) { return !(luminance(one.sun.irradiance) > 0); });
   std::sort(found.begin(), found.end(), [](const NumberedSun& a, const NumberedSun& b) {

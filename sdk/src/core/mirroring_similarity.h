@@ -8,9 +8,9 @@
 
 namespace nook {
 
-// True if the matrix mirrors. Then its determinant is negative by more than rounding errors. If a matrix of
-// floats flattens space, rounding gives the determinant either sign, with a magnitude of about 1e-7 relative
-// to the matrix.
+// Returns true if the matrix mirrors, which means that its determinant is negative by more than rounding
+// errors. If a float matrix flattens space, rounding makes the determinant positive or negative, with a
+// magnitude of about 1e-7 relative to the matrix.
 inline bool mirrors(const Affine& a) {
   double square = 0;
   for (int i = 0; i < 3; ++i)

@@ -1,4 +1,4 @@
-// Runs a function for every index. Uses the host's job system if the host has set one.
+// Calls a function for every index, in the host's job system if the host has set one.
 #pragma once
 
 #include <nook/nook.h>

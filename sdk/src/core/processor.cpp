@@ -1,6 +1,6 @@
 #include "sdk/src/core/isa.h"
 
-// clang-cl also defines _MSC_VER, but does not link the support library of __builtin_cpu_supports.
+// clang-cl also takes this branch, because it does not link the library that __builtin_cpu_supports needs.
 #if defined(_M_X64) && defined(_MSC_VER)
 #include <intrin.h>
 #define NOOK_PROCESSOR_CPUID

@@ -1,6 +1,6 @@
-// Two SIMD vectors as one number type. Each operation runs on both vectors. While one result is not ready
-// yet, the processor works on the other vector. V is the vector type of an instruction set, from the set's
-// folder in sdk/src/isa.
+// Two SIMD vectors as one number type. Each operation is applied to both vectors. While the processor waits
+// for the result of one vector, it can work on the other one. V is the vector type of an instruction set,
+// from the set's folder in sdk/src/isa.
 #pragma once
 
 namespace nook::simd {

@@ -1,9 +1,12 @@
 // Mathematical functions for which processors have no instruction, for a SIMD vector type F of one
 // instruction set. F must have the operations of core/simd_scalar.h and
-//   split(x, exponent, mantissa): x = mantissa * 2^exponent with mantissa in [1/sqrt(2), sqrt(2)), for normal
-//   x > 0; times_power_of_two(a, n): a * 2^n for whole n in [-126, 127], a normal and the result too;
-//   nearest(a): a rounded to a whole number. The polynomials interpolate the functions at Chebyshev nodes, so
-// each is close to the best polynomial of its degree.
+//   split(x, exponent, mantissa), which sets x = mantissa * 2^exponent with mantissa in [1/sqrt(2), sqrt(2)),
+//   where x must be normal and > 0,
+//   times_power_of_two(a, n), which returns a * 2^n for an integer n in [-126, 127], where `a` and the result
+//   must be normal, and
+//   nearest(a), which returns the integer nearest to `a`.
+// The polynomials interpolate the functions at Chebyshev nodes, so each is close to the best polynomial of
+// its degree.
 #pragma once
 
 namespace nook::simd {
@@ -47,7 +50,7 @@ F exp2_of(F a) {
 }
 
 // Returns base^exponent. The relative error is at most 1e-5 for base in [1e-6, 1e3] and exponent in (0, 4].
-// It is proportional to the error of the logarithm times the exponent. For base 0, the result is 0.
+// The error is proportional to the exponent. For base 0, the result is 0.
 template <class F>
 F power_of(F base, F exponent) {
   const F smallest(1e-37f);

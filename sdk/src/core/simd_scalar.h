@@ -37,8 +37,8 @@ template <std::floating_point T>
 T rsqrt(T a) {
   return 1 / std::sqrt(a);
 }
-// Returns the square root of a >= 1e-30. In the SIMD versions, this function and the next two use the
-// processor's fast estimates, with a relative error of up to 1e-4.
+// Returns the square root of `a`, for a >= 1e-30. The SIMD versions of this function and of the next two use
+// the processor's fast estimates, with a relative error of up to 1e-4.
 template <std::floating_point T>
 T sqrt_positive(T a) {
   return std::sqrt(a);

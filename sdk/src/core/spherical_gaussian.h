@@ -1,7 +1,8 @@
 // Spherical Gaussians, called lobes, and their closed forms:
-//   G(s) = amplitude exp(sharpness (dot(axis, s) - 1)). A lobe of sharpness 0 is constant over the sphere. The
-// functions are accurate from sharpness 0 to far beyond the resolution of float directions, because they
-// subtract the large exponents before they compute the exponential.
+//   G(s) = amplitude exp(sharpness (dot(axis, s) - 1)).
+// A lobe of sharpness 0 is constant over the sphere. The functions are accurate from sharpness 0 up to lobes
+// that are narrower than float directions can resolve. The reason is that large exponents are subtracted
+// before the exponential is computed.
 #pragma once
 
 #include <algorithm>
@@ -63,7 +64,7 @@ ProductShape<T> gaussian_product_shape(T a, T b, T apart) {
 }
 
 // Returns the integral of the product at amplitudes 1: 2 pi e^(l - a - b) (1 - e^(-2 l)) / l. This form never
-// overflows, while 4 pi e^(-a - b) sinh(l) / l would.
+// overflows, unlike 4 pi e^(-a - b) sinh(l) / l.
 template <std::floating_point T>
 T gaussian_product_integral(T a, T b, T apart) {
   const ProductShape<T> shape = gaussian_product_shape(a, b, apart);
@@ -95,8 +96,8 @@ inline SphericalGaussian product(const SphericalGaussian& a, const SphericalGaus
           by_channel(a.amplitude, b.amplitude) * shape.scale};
 }
 
-// Returns 1 minus the mean cosine to the lobe's axis, weighted by the lobe: 1 - (coth(sharpness) - 1 /
-// sharpness).
+// Returns 1 - c, where c is the mean cosine to the lobe's axis, weighted by the lobe: 1 - (coth(sharpness) -
+// 1 / sharpness).
 template <std::floating_point T>
 T gaussian_spread(T sharpness) {
   if (sharpness < T(0.01)) return 1 - sharpness / 3;
@@ -104,8 +105,8 @@ T gaussian_spread(T sharpness) {
   return 1 / sharpness - 2 * e / (1 - e);
 }
 
-// Returns the sharpness whose gaussian_spread is `spread`, in (0, 1]. Starts from the estimate of A. Banerjee
-// (2005), and improves it by two Newton steps.
+// The inverse of gaussian_spread: returns the sharpness of a lobe with this spread, which must be in (0, 1].
+// Starts from the estimate of A. Banerjee (2005), and improves it by two Newton steps.
 template <std::floating_point T>
 T gaussian_sharpness_of_spread(T spread) {
   const T mean = 1 - spread;
@@ -120,8 +121,8 @@ T gaussian_sharpness_of_spread(T spread) {
   return sharpness;
 }
 
-// Returns the convolution of `a` with the zonal filter `b`. The exact convolution is not a lobe. The result
-// is the lobe around the axis of `a` that has the same integral and mean cosine.
+// Approximates the convolution of `a` with the zonal filter `b`, which is not exactly a lobe. Returns the
+// lobe around the axis of `a` that has the same integral and mean cosine as the exact convolution.
 inline SphericalGaussian convolution(const SphericalGaussian& a, const SphericalGaussian& b) {
   const float spread_a = gaussian_spread(a.sharpness), spread_b = gaussian_spread(b.sharpness);
   const float sharpness = gaussian_sharpness_of_spread(spread_a + spread_b - spread_a * spread_b);
@@ -176,16 +177,16 @@ inline float gaussian_unit_irradiance_fitted(float sharpness, float cosine) {
   return std::max((1 - rest) * y + bias, 0.0f);
 }
 
-// The most accurate form uses the bands up to this sharpness, and the fit above this sharpness.
+// The most accurate form uses the bands up to this sharpness, and S. Hill's fit above it.
 inline constexpr float bands_max_sharpness = float(NOOK_BANDS_MAX_SHARPNESS);
 inline float gaussian_unit_irradiance_best(float sharpness, float cosine) {
   return sharpness <= bands_max_sharpness ? gaussian_unit_irradiance_bands(sharpness, cosine)
                                           : gaussian_unit_irradiance_fitted(sharpness, cosine);
 }
 
-// A lobe around n that approximates the clamped cosine max(dot(n, s), 0), with B. Karis' values, which The
-// Order: 1886 used. The inner product of a light with this lobe is the cheapest approximation of irradiance.
-// It is never 0, even for light from behind.
+// A lobe around n that approximates the clamped cosine max(dot(n, s), 0), with the values of B. Karis that
+// were also used in the game The Order: 1886. The inner product of a light with this lobe is the cheapest
+// approximation of irradiance. It is never 0, even for light from behind.
 inline constexpr float cosine_lobe_sharpness = float(NOOK_COSINE_LOBE_SHARPNESS);
 inline constexpr float cosine_lobe_amplitude = float(NOOK_COSINE_LOBE_AMPLITUDE);
 inline float gaussian_irradiance_inner_product(Vec3 axis, float sharpness, Vec3 n) {

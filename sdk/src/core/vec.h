@@ -39,7 +39,8 @@ constexpr Vec3 cross(Vec3 a, Vec3 b) {
 inline float length(Vec3 a) {
   return std::sqrt(dot(a, a));
 }
-// Returns the vector with length 1. A zero vector is returned unchanged, so that the caller can replace it.
+// Returns the vector with length 1. Returns a zero vector unchanged. The caller can then detect and replace
+// it.
 inline Vec3 normalised(Vec3 a) {
   const float l = length(a);
   return l > 0 ? a * (1 / l) : Vec3{};
