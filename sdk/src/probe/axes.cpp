@@ -6,7 +6,8 @@
 namespace nook::probe {
 namespace {
 
-// Returns a point of the spiral. Heights run from 1 down to `lowest`, at the centres of zones of equal area.
+// Returns a point of the spiral. The heights of the points go from 1 down to `lowest`. Each point is at the
+// middle height of a zone, and all zones have equal area.
 Vec3 on_spiral(std::size_t index, std::size_t count, double lowest) {
   constexpr double golden_angle = std::numbers::pi * (3 - 2.23606797749978969641);
   const double z = 1 - (1 - lowest) * (double(index) + 0.5) / double(count);

@@ -11,13 +11,13 @@
 
 namespace nook::probe {
 
-// Fill `axes` with H. Vogel's spiral. Successive azimuths differ by the golden angle, and heights are at the
-// centres of zones of equal area. vogel_sphere covers the whole sphere around +z. vogel_hemisphere covers the
-// hemisphere around `up`.
+// Both functions fill `axes` with H. Vogel's spiral. The azimuths of successive points differ by the golden
+// angle. Each point is at the middle height of a zone, and all zones have equal area. vogel_sphere covers the
+// whole sphere around +z. vogel_hemisphere covers the hemisphere around `up`.
 void vogel_sphere(std::span<Vec3> axes);
 void vogel_hemisphere(Vec3 up, std::span<Vec3> axes);
 
-// Two unit vectors x and y that form a right-handed frame with a given unit vector z.
+// Two unit vectors. With a given unit vector z, x, y and z are a right-handed frame.
 struct Frame {
   Vec3 x, y, z;
 };
@@ -47,8 +47,8 @@ constexpr T dice_radiance(T c) {
 }
 
 // Returns the irradiance that the basis function causes on a surface. c, in [-1, 1], is the cosine between
-// the surface's normal and the vertex. The result is exact, because only bands 0, 1, 2 and 4 of the clamped
-// cosine contribute.
+// the surface's normal and the vertex. The result is exact. Only bands 0, 1, 2 and 4 of the clamped cosine
+// contribute to it.
 template <std::floating_point T>
 constexpr T dice_irradiance(T c) {
   return std::numbers::pi_v<T> *

@@ -13,8 +13,8 @@
 namespace nook::probe {
 namespace {
 
-// Two functions with at least this correlation are treated as equal. In a fit, rounding errors would
-// determine their coefficients.
+// Two functions with at least this correlation are treated as equal, because rounding errors would determine
+// their coefficients in a fit.
 constexpr double same_function = 1 - 1e-6;
 
 const char* lobe_name(const Basis& basis, std::uint32_t i) {

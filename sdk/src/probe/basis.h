@@ -1,5 +1,6 @@
-// The basis functions of a probe. All kinds of bases have the same interface: values at a direction,
-// integrals, and the Gram matrix, over the sphere or a hemisphere. Fits use only this interface.
+// The basis functions of a probe. All kinds of bases have the same interface. It gives the values for a
+// direction, and the integrals and the Gram matrix over the sphere or a hemisphere. Fits use only this
+// interface.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -28,7 +29,7 @@ struct Basis {
   Domain domain = Domain::sphere;
   bool ambient = false;                          // Gaussians: the last function is constant (sharpness 0)
   std::uint32_t order = 0;                       // harmonics: the highest band
-  std::uint32_t count = 0;                       // functions
+  std::uint32_t count = 0;                       // number of functions
   Vec3 up{0, 0, 1};                              // the hemisphere's axis
   std::array<Vec3, max_functions> axis{};        // Gaussians and dice
   std::array<float, max_functions> sharpness{};  // Gaussians
@@ -46,8 +47,9 @@ Basis vogel_basis(std::uint32_t lobes, bool ambient = false, Domain domain = Dom
 Basis harmonic_basis(std::uint32_t order, Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
 Basis dice_basis(Domain domain = Domain::sphere, Vec3 up = {0, 0, 1});
 
-// Returns half the number of lobes that the whole sphere would have, for example 6 for 12 lobes on the
-// sphere. With this sharpness, neighbouring lobes overlap by the same amount for every number of lobes.
+// Returns the default sharpness: half the number of lobes on the whole sphere, for example 6 for 12 lobes. On
+// a hemisphere, the number is doubled first. With this sharpness, the overlap of neighbouring lobes does not
+// depend on the number of lobes.
 float even_sharpness(std::uint32_t lobes, Domain domain);
 
 // Throws Failure(code) if a count, axis or sharpness is out of range, or if two lobes are so similar that no

@@ -28,9 +28,10 @@ double cap_integral(double sharpness, double depth) {
 }
 
 // Returns the integral of a lobe over a hemisphere. `cosine` is the cosine between the lobe's axis and the
-// axis of the hemisphere. The function integrates over circles around the lobe's axis. Circles with angles up
-// to |90 degrees - tilt| lie completely in the hemisphere; then the horizon cuts them; the remaining ones lie
-// outside. For a lobe below the horizon, the order is reversed.
+// axis of the hemisphere. The function integrates over circles around the lobe's axis. From the axis
+// outwards, the circles with angles up to |90 degrees - tilt| lie completely in the hemisphere. The horizon
+// cuts the next circles. The last circles lie completely outside. For a lobe below the horizon, the order is
+// reversed.
 double hemisphere_integral(double sharpness, double cosine) {
   const double tilt = std::acos(std::clamp(cosine, -1.0, 1.0));
   const double first = std::abs(pi / 2 - tilt), last = pi - first;
@@ -42,8 +43,8 @@ double hemisphere_integral(double sharpness, double cosine) {
   const double end = std::min(last, std::acos(1 - depth));
   if (!(end > first)) return whole;
   const double cotangent = cosine / std::max(std::sqrt(1 - cosine * cosine), 1e-300);
-  // Substitutes angle = first + (end - first) (1 - cos u) / 2. The length of the arc above the horizon begins
-  // and ends like a square root, and the substitution makes the integrand smooth there.
+  // Substitutes angle = first + (end - first) (1 - cos u) / 2. At both ends of the interval, the length of
+  // the arc above the horizon behaves like a square root. The substitution makes the integrand smooth there.
   const double cut = rule(0, pi, [&](double u) {
     const double angle = first + (end - first) * (1 - std::cos(u)) / 2;
     const double half_arc = std::acos(std::clamp(-cotangent / std::tan(angle), -1.0, 1.0));

@@ -8,8 +8,8 @@
 
 namespace nook::probe {
 
-// Works column by column. The rows below a column subtract the column independently of each other, so the
-// processor can overlap their sums.
+// Works column by column. The elements below the diagonal of a column do not depend on each other, so the
+// processor can compute their sums in parallel.
 std::uint32_t cholesky(double* a, std::uint32_t n, double relative) {
   std::array<double, max_functions> diagonal, column;
   for (std::size_t i = 0; i < n; ++i) diagonal[i] = a[i * n + i];
@@ -48,8 +48,8 @@ void cholesky_solve(const double* l, std::uint32_t n, double* x, std::uint32_t s
 
 namespace {
 
-// Solves only for the variables in `set`; all others are 0. Removes variables that depend linearly on earlier
-// ones from the set, and returns its new size.
+// Solves for the variables in `set`; all others are 0. If a variable depends linearly on earlier variables,
+// removes it from the set. Returns the new size of the set.
 std::uint32_t solve_subset(const double* g, const double* b, std::uint32_t n, std::uint32_t* set,
                            std::uint32_t size, double* answer, double* scratch) {
   for (;;) {

@@ -1,17 +1,17 @@
 // Incremental least-squares fits of a basis to samples of radiance. nook_probe.h describes the methods. With
 // every method, you can add samples, read coefficients at any time, and merge fits.
 //
-// The fast step of running averages is recursive least squares, applied to blocks of samples. From the
-// samples before a block, the fit keeps only the coefficients b and the total weight W. The fit assumes that
-// the normalised Gram matrix of these samples is G / a, where G is the Gram matrix over the domain and a is
-// the domain's area. For the block itself, the fit sums S (products of functions) and m (functions times
-// radiance), and solves
+// Running averages can use a fast step or a plain step. The fast step is recursive least squares, applied to
+// blocks of samples. Before each block, the fit knows only the coefficients b and the total weight W of the
+// earlier samples. It assumes that the normalised Gram matrix of the earlier samples is G / a, where G is the
+// Gram matrix over the domain and a is the domain's area. For the block itself, the fit sums S (products of
+// functions) and m (functions times radiance), and solves
 //   (W G / a + S) (b' - b) = m - S b.
-// Each block solves one linear system, and no sample can make the result overshoot. The errors converge to
+// One linear system is solved for each block. No sample can make the result overshoot. The errors converge to
 // the errors of batch least squares; docs/probes.md has measurements. The plain step, as published, divides
-// only by the mean square of each function. If functions overlap, the plain step forgets the initial value
-// slowly. Along the slowest direction, the weight of the initial value decreases only as n^-p with p below
-// 1/2.
+// only by the mean square of each function. If functions overlap, the initial value has a long influence on
+// the result of the plain step. For some combinations of coefficients, the weight of the initial value
+// decreases only as n^-p after n samples, with p below 1/2.
 //
 // The sums over a chunk of samples are floats, and a nearly singular Gram matrix would magnify their rounding
 // errors. If functions are so similar that this would happen, the sums use the orthonormal functions u =
@@ -62,14 +62,14 @@ constexpr bool is_running(FitMethod method) {
          method == FitMethod::running_average_non_negative;
 }
 
-// Weights should be 1 on average. If the total weight is lower than the number of samples, it is raised to
-// this number, but at most to this limit. The reason is that importance sampling by luminance can yield a
-// sample with a tiny weight and a huge radiance. If this sample came first, a running average would need
-// thousands of samples to forget it.
+// Weights should be 1 on average. If the total weight is lower than the number of samples, a running average
+// uses the number of samples instead, but at most this limit. The reason is that importance sampling by
+// luminance can yield a sample with a tiny weight and a huge radiance. If such a sample came first, it would
+// dominate the running average for thousands of samples.
 inline constexpr double first_weight = 256;
 
-// Returns true if coefficients are constrained to the light's bands 0 to 2 (fit_bands.h). This applies to
-// Gaussians, except for the two forms that exist for comparison.
+// Returns true if bands 0 to 2 of the fit are constrained to match the light's (fit_bands.h). This applies to
+// Gaussians, except for the two methods that exist only for comparison.
 constexpr bool meets_bands(const Basis& basis, const FitSettings& settings) {
   return settings.constraint == Constraint::bands && basis.kind == BasisKind::gaussians &&
          settings.method != FitMethod::naive && settings.method != FitMethod::running_average_original;
@@ -84,12 +84,12 @@ constexpr bool has_sampled_bands(const Basis& basis, const FitSettings& settings
 
 struct SampleCounts {
   std::uint64_t used = 0;
-  double expected_weight = 0;  // sum of growth factors of the first samples
+  double expected_weight = 0;  // sum of the growth factors (growing_samples) of the first samples
   std::uint64_t bad_direction = 0;
   std::uint64_t bad_radiance = 0;
   std::uint64_t bad_weight = 0;
-  double weight = 0;            // of the used samples
-  double radiance[3]{0, 0, 0};  // their weighted sum
+  double weight = 0;            // total weight of the used samples
+  double radiance[3]{0, 0, 0};  // weighted sum of their radiance
 
   std::uint64_t skipped() const { return bad_direction + bad_radiance + bad_weight; }
 };
@@ -105,17 +105,17 @@ class Fit {
   // with few samples only copies them. The samples are checked and counted later, when a group is full or
   // when a result is needed.
   void add_samples(const float* directions, const float* radiance, const float* weights, std::size_t count);
-  // Initialises a running average with the result of `short_run`, weighted by its total weight. The running
-  // average must not have samples yet. seed and merge throw INVALID_ARGUMENT if the other fit has a different
-  // basis. merge also throws if the settings differ.
+  // `seed` initialises a running average with the result of the fit `short_run`. The initial value has the
+  // total weight of short_run. The running average must not have samples yet. `seed` and `merge` throw
+  // INVALID_ARGUMENT if the other fit has a different basis. `merge` also throws if the settings differ.
   void seed(Fit& short_run);
   void merge(Fit& other);
   void reset();
 
   // Reads one coefficient per function. Before the first sample, the coefficients are 0. Allocates nothing.
   void read(std::span<Vec3> coefficients);
-  // Reads the amplitudes for glossy reflection, fitted to the same samples; see gloss.h. Before the first
-  // sample, the amplitudes are 0. Only for Gaussians. Allocates nothing.
+  // Reads the amplitudes for glossy reflection (gloss.h), which are fitted to the same samples. Before the
+  // first sample, the amplitudes are 0. Only for Gaussians. Allocates nothing.
   void read_gloss(std::span<Vec3> amplitudes);
 
   const Basis& basis() const { return basis_; }
@@ -126,9 +126,9 @@ class Fit {
   // The state that the samples accumulate. If whitens_ is set, sums over functions refer to the orthonormal
   // functions.
   struct State {
-    double* sums;          // 3 x padded moments; count x padded Gram of the samples
-    double* coefficients;  // 3 x padded, of a running average
-    double* square;        // padded; of its plain step in lockstep
+    double* sums;          // 3 x padded moments; then count x padded, the Gram matrix of the samples
+    double* coefficients;  // 3 x padded, only for a running average
+    double* square;        // padded, only for the plain step with Denominator::lockstep
     // 3 x band_stride moments of the harmonics, then 9 x padded sums of products of harmonic and function.
     // NULL if bands are not needed.
     double* bands;
@@ -156,7 +156,7 @@ class Fit {
   void prepare_whitening(float* whitening) const;
   std::size_t state_size() const;
   State state_at(double* numbers) const;
-  bool is_block() const;  // a running average by the fast step
+  bool is_block() const;  // true for a running average with the fast step
   void append_recent(const float* directions, const float* radiance, const float* weights,
                      std::uint32_t count);
   void take_recent();  // moves the latest samples to samples_
@@ -202,22 +202,23 @@ class Fit {
   AlignedArray<RecentSamples> recent_;   // one
   AlignedArray<SampleColumns> samples_;  // one: the samples that wait
   AlignedArray<float> floats_;           // what lobes_, running_ and whitening_ point to
-  AlignedArray<float> values_;           // of a chunk
+  AlignedArray<float> values_;           // the values of the functions for a chunk of samples
   AlignedArray<double> gram_;            // of the domain, count x count
   AlignedArray<double> factor_;          // its Cholesky factor
   AlignedArray<double> row_sum_;         // of gram_; the naive form's denominators
   AlignedArray<double> state_;
-  AlignedArray<double> spare_;    // for reading, as large
+  AlignedArray<double> spare_;    // a copy of the state, for reading
   AlignedArray<double> scratch_;  // for solving
 };
 
-// Expresses the solution of a fit as one matrix. If the Gram matrix is exact, the coefficients depend
-// linearly on the sums of a fit, so a matrix product computes them.
+// The solution of a fit as a matrix. If the exact Gram matrix is used, the coefficients depend linearly on
+// the sums of the fit. A product with this matrix then computes them.
 
-// Returns a matrix of basis.count rows and basis.count + band_functions columns. Row i computes coefficient i
-// of the method `moments`. Multiply it by the integrals over the sphere of the light times each function,
-// followed by the integrals of the light times each harmonic of bands 0 to 2. Without the constraint, the
-// columns of the harmonics are 0. Only for Gaussians over the sphere.
+// Returns a matrix of basis.count rows and basis.count + band_functions columns. Row i computes coefficient
+// i, as the method `moments` does. Multiply the matrix by a vector of integrals over the sphere. First come
+// the integrals of the light times each function, then the integrals of the light times each harmonic of
+// bands 0 to 2. Without the constraint, the columns of the harmonics are 0. Only for Gaussians over the
+// sphere.
 Vector<double> solution_map(const Basis& basis, Constraint constraint, Memory* memory = default_memory());
 
 }  // namespace nook::probe

@@ -40,8 +40,8 @@ void project_functions(const Basis& basis, double* function) {
   }
 }
 
-// The minimum is b + K y, where K = G^-1 C^T and (C K + 1 / weights) y = s - C b. This is a system of nine
-// equations, which is well conditioned for any weight.
+// The minimum is b + K y, where K = G^-1 C^T and (C K + 1 / weights) y = s - C b. The second equation is a
+// system of nine equations for y, which is well conditioned for any weight.
 void meet_bands(const LightBands& bands, const double* factor, std::uint32_t count, double weight,
                 double* b) {
   constexpr std::size_t rows = band_functions;
@@ -62,7 +62,9 @@ void meet_bands(const LightBands& bands, const double* factor, std::uint32_t cou
       system[j * rows + other] = sum;
     }
   }
-  if (cholesky(system.data(), rows, 0) < rows) return;  // if functions are nearly 0, no digit is valid
+  if (cholesky(system.data(), rows, 0) < rows)
+    return;  // if all functions are nearly 0, no digit of the
+             // result would be valid
   for (std::size_t channel = 0; channel < 3; ++channel)
     cholesky_solve(system.data(), rows, y.data() + channel, 3);
   for (std::size_t j = 0; j < rows; ++j)

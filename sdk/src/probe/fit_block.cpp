@@ -9,14 +9,14 @@ namespace nook::probe {
 namespace {
 
 // The coefficients before a block have at least the weight of one sample, and at least this fraction of the
-// total weight. At the start, they are 0 or come from only a few samples. The minimum weight keeps the first
-// solutions small.
+// total weight. At the start, the coefficients are 0 or come from only a few samples. The minimum weight
+// prevents large values in the first solutions.
 constexpr double least_before = 1;
 constexpr double least_share_before = 1.0 / 512;
 
 }  // namespace
 
-// Uses that the basis functions are B = L u / sqrt(a).
+// The basis functions are B = L u / sqrt(a), so the sums are multiplied by L / sqrt(a).
 void Fit::unwhiten(State state) const {
   if (!whitens_) return;
   const std::uint32_t n = basis_.count;

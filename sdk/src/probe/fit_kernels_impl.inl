@@ -1,6 +1,6 @@
-// The kernels over one vector type. Each instruction set includes this file inside its own namespace, after
-// defining there isa, Float, width, broadcast, load and store; see character/shadow_kernels_impl.inl.
-// Everything here but fit_kernels() has internal linkage.
+// The kernels for one vector type. Each instruction set includes this file inside its own namespace. Before
+// that, it must define isa, Float, width, broadcast, load and store there; see
+// character/shadow_kernels_impl.inl. Everything here except fit_kernels() has internal linkage.
 
 namespace {
 

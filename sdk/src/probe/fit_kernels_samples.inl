@@ -1,7 +1,7 @@
 // Converts callers' samples to columns and sums them. A part of fit_kernels_impl.inl.
 
-// The smallest floats above the limits; the limits themselves are allowed. A comparison "below" is false for
-// NaN, so NaN is rejected too.
+// Each constant is the smallest float above a limit, because the limit itself is allowed. A value is accepted
+// if it is less than the constant. This comparison is false for NaN, so NaN is rejected too.
 constexpr float above_max_sample = 1.00000006e18f;    // radiance and weight: sums of squares stay finite
 constexpr float above_length_error = 2.00000033e-3f;  // of the squared length of a direction
 
@@ -27,8 +27,8 @@ std::uint32_t not_below(Float a, Float b) {
   return ~std::uint32_t(bits(less(a, b))) & all;
 }
 
-// Normalises directions by two Newton steps that start at 1. Returns a bit mask of the directions whose
-// length was not close to 1.
+// Normalises directions. Computes the inverse length by two Newton steps that start at 1. Returns a bit mask
+// of the directions whose length was not close to 1.
 std::uint32_t make_unit(const float* up, float* px, float* py, float* pz) {
   const Float x = load(px), y = load(py), z = load(pz);
   const Float length2 = fma(x, x, fma(y, y, z * z));
@@ -46,8 +46,8 @@ std::uint32_t make_unit(const float* up, float* px, float* py, float* pz) {
   return bad;
 }
 
-// Converts all records before it checks any, because loading a vector that several smaller stores have just
-// written would stall the processor.
+// Converts all records first, and checks them afterwards. A processor stalls if it loads a vector just after
+// several smaller stores have written it.
 SampleFaults read_group(const float* directions, const float* radiance, const float* weights, const float* up,
                         std::uint32_t count, SampleColumns& samples, std::uint32_t first) {
   float *const x = samples.x + first, *const y = samples.y + first, *const z = samples.z + first;

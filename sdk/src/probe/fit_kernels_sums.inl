@@ -7,7 +7,7 @@ NOOK_INLINE Four sums_of(Float first, Float second, Float third, Float fourth) {
   return (a + b) + (c + d);
 }
 
-// Adds the sum over the lanes of each of Left vectors to `sums`.
+// For each of `Left` vectors, adds the sum of its lanes to `sums`.
 template <std::uint32_t Left>
 NOOK_INLINE void add_sums(const Float (&total)[Left], double* sums) {
   float sum_of[Left];

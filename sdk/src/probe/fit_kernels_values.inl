@@ -1,8 +1,8 @@
 // Values of the functions at the samples' directions. A part of fit_kernels_impl.inl.
 
-// Up to this sharpness, the exponent is computed as sharpness (dot(d, axis) - 1). Its absolute error is the
-// rounding error of 1, times the sharpness. For sharper lobes, the exponent uses half of the squared distance
-// between d and axis instead, which has only a relative error.
+// Up to this sharpness, the exponent is computed as sharpness (dot(d, axis) - 1). The absolute error of this
+// exponent is the float rounding error at 1, multiplied by the sharpness. For sharper lobes, the exponent
+// uses half of the squared distance between d and axis instead, which has only a relative error.
 constexpr float widest_of_distance = 16;
 
 constexpr float log2_of_e = 1.44269504f;

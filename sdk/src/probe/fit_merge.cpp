@@ -39,7 +39,7 @@ void Fit::seed(Fit& short_run) {
   if (state.bands) seed_bands(start.data());
 }
 
-// Sets the sums of bands to the values that samples of the initial light itself would have left.
+// Sets the sums of the bands to the values that they would have if the samples came from the initial light.
 void Fit::seed_bands(const Vec3* start) {
   std::array<double, band_functions * max_functions> function;
   project_functions(basis_, function.data());

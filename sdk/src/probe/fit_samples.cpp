@@ -1,5 +1,5 @@
-// Adds samples to a fit. Samples wait until a chunk is full. So the boundaries of chunks depend neither on
-// how the caller splits the samples into calls, nor on skipped faulty samples.
+// Adds samples to a fit. Samples are kept until a chunk is full. So the chunks do not depend on how the
+// caller splits the samples into calls, and faulty samples, which are skipped, do not shift them.
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,8 +27,8 @@ void clear_samples(SampleColumns& samples, std::uint32_t from, std::uint32_t to)
     std::fill(samples.*column + from, samples.*column + to, column == &SampleColumns::growth ? 1.0f : 0.0f);
 }
 
-// A running average processes this many samples at once, so that the cost of solving a system per sample is
-// small.
+// A running average processes this many samples at once. It solves one system for all of them, so that the
+// cost per sample is small.
 constexpr std::uint32_t block_samples = 4 * sample_chunk;
 
 }  // namespace

@@ -13,8 +13,8 @@
 namespace nook::probe {
 namespace {
 
-// This fraction of the true Gram matrix is added to the Gram matrix of the samples, as regularisation. Its
-// effect is invisible.
+// As regularisation, this fraction of the true Gram matrix is added to the Gram matrix of the samples. The
+// fraction is so small that its effect is invisible.
 constexpr double regularisation = 1e-8;
 // The samples determine the coefficients if each pivot of their Gram matrix is at least this fraction of the
 // corresponding pivot of the true Gram matrix. Rounding errors of float sums, 1e-6 of the diagonal, are below
@@ -81,8 +81,9 @@ void Fit::solve_moments(const Gathered& gathered, double* b) {
 }
 
 // Computes the Gram matrix of the samples and its Cholesky factor. With fewer samples than functions, or with
-// few different directions, this matrix is singular except for rounding. Then a larger fraction of the true
-// matrix is added. The solution is then close to the smallest of all exact solutions.
+// few different directions, this matrix is singular, apart from rounding errors. Then a larger fraction of
+// the true matrix is added. Of all coefficients that match the samples exactly, the solution is then close to
+// the smallest ones.
 void Fit::factor_samples(const Gathered& gathered, double scale, double* gram, double* factor) const {
   const std::uint32_t n = basis_.count;
   const auto factor_with = [&](double prior) {
@@ -94,7 +95,8 @@ void Fit::factor_samples(const Gathered& gathered, double scale, double* gram, d
     return cholesky(factor, n, 0) == n;
   };
   if (factor_with(regularisation) && has_pivots(factor, factor_.data(), n, least_share * scale)) return;
-  // Without rounding errors, adding the samples' matrix could only increase the pivots.
+  // Without rounding errors, the sum would pass this test, because adding the samples' matrix can only
+  // increase the pivots.
   for (double prior = least_share; prior < 1; prior *= 10)
     if (factor_with(prior) && has_pivots(factor, factor_.data(), n, 0.9 * prior * scale)) return;
   factor_with(1);
@@ -126,10 +128,10 @@ void Fit::solve_samples(const Gathered& gathered, double* b) {
   }
 }
 
-// Replaces b by non-negative coefficients. They minimise the mean squared difference from b over the domain,
-// plus the difference from the light's bands. If b converges to least squares, the result converges to
-// non-negative least squares. With the plain step and without bands, b does not change, because the plain
-// step never leaves a negative coefficient.
+// Replaces b by non-negative coefficients. They minimise the sum of two terms: the mean squared difference
+// from b over the domain, and the difference from the light's bands. If b converges to least squares, the
+// result converges to non-negative least squares. With the plain step and without bands, b does not change,
+// because the plain step never leaves a negative coefficient.
 void Fit::make_non_negative(const Gathered& gathered, double* b) {
   const std::uint32_t n = basis_.count;
   bool negative = false;
@@ -154,8 +156,8 @@ void Fit::make_non_negative(const Gathered& gathered, double* b) {
 }
 
 // Computes the moments, function by function as RGB, and returns the Gram matrix that belongs to them. If the
-// method sums a Gram matrix of its samples, it is this matrix. A running average keeps only coefficients, so
-// its moments are computed from the light that the coefficients represent.
+// method sums the Gram matrix of its samples, returns that matrix. A running average keeps only coefficients,
+// so its moments are computed from the light that the coefficients represent.
 const double* Fit::gloss_moments(const Gathered& gathered, double* moments) {
   const std::size_t n = basis_.count;
   const double scale = domain_area(basis_.domain) / gathered.counts.weight;
@@ -235,8 +237,8 @@ Vector<double> solution_map(const Basis& basis, Constraint constraint, Memory* m
   LightBands bands;
   project_functions(basis, bands.function.data());
   Vector<double> map(std::size_t(n) * columns, 0.0, memory);
-  // The three channels of a fit are independent. So one solve computes three columns of the matrix: each
-  // channel contains the unit vector of one column.
+  // The three channels of a fit are independent. So one solve can compute three columns of the matrix. For
+  // this, the moments of each channel are a unit vector, which selects one column.
   std::array<double, 3 * max_functions> b;
   for (std::uint32_t first = 0; first < columns; first += 3) {
     const std::uint32_t end = std::min(first + 3, columns);

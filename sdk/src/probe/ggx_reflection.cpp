@@ -23,9 +23,9 @@ float polynomial(const double (&k)[(degree + 1) * (degree + 2) / 2], float u, fl
 }
 
 constexpr double albedo_k[] = {NOOK_GGX_ALBEDO_0, NOOK_GGX_ALBEDO_1,
-                               NOOK_GGX_ALBEDO_2};  // of openness and alpha
+                               NOOK_GGX_ALBEDO_2};  // polynomial of openness and alpha
 constexpr double fresnel_k[] = {NOOK_GGX_FRESNEL_0, NOOK_GGX_FRESNEL_1,
-                                NOOK_GGX_FRESNEL_2};  // of the square roots of facing and of alpha
+                                NOOK_GGX_FRESNEL_2};  // polynomial of the square roots of facing and of alpha
 // Polynomials of openness and the square root of alpha.
 constexpr double middle_along_k[] = {NOOK_GGX_MIDDLE_ALONG};
 constexpr double middle_sharpness_k[] = {NOOK_GGX_MIDDLE_SHARPNESS};
@@ -39,7 +39,7 @@ constexpr double pair_across_k[] = {NOOK_GGX_PAIR_ACROSS};
 constexpr double pair_along_k[] = {NOOK_GGX_PAIR_ALONG};
 constexpr double pair_sharpness_k[] = {NOOK_GGX_PAIR_SHARPNESS};
 
-// Returns the square root of the isotropic width that replaces both widths.
+// Returns the square root of the alpha with which the isotropic form replaces both widths.
 float mean_roughness(const Surface& surface) {
   return std::sqrt(std::sqrt(surface.alpha_x * surface.alpha_y));
 }
@@ -48,7 +48,7 @@ float mean_roughness(const Surface& surface) {
 // vector. In this space, the view has the component `flat` along the plane of incidence and `openness`
 // upwards.
 Vec3 among_round_slopes(const SurfaceView& view, float across, float along) {
-  // Stays inside the rim of the disc, because normals at the rim reflect along the horizon.
+  // Moves the point inside the rim of the disc, because normals at the rim reflect along the horizon.
   const float shrink = std::min(1.0f, 0.99f / std::max(std::hypot(across, along), 1e-6f));
   const float a = shrink * across, lifted = 0.5f + 0.5f * view.openness;
   const float b = (1 - lifted) * std::sqrt(1 - a * a) + lifted * shrink * along;
@@ -77,21 +77,21 @@ SurfaceView view_of(const Surface& surface) {
   view.stretched_x = surface.alpha_x * x / std::sqrt(view.alpha2_in_plane);
   view.stretched_y = surface.alpha_y * y / std::sqrt(view.alpha2_in_plane);
   view.openness = view.facing / std::sqrt(view.facing * view.facing + sine2 * view.alpha2_in_plane);
-  // If slopes across the plane are wide, fewer normals lean far within the plane.
+  // If the slopes across the plane of incidence are wide, fewer normals are tilted far within the plane.
   const float alpha2 = view.alpha2_in_plane * std::pow(view.alpha2_in_plane / view.alpha2_across, 0.1f);
   view.roughness_in_plane = std::sqrt(std::sqrt(std::min(alpha2, 1.0f)));
   return view;
 }
 
 float directional_albedo(const SurfaceView& view, const Surface& surface) {
-  // The albedo of a surface that reflects all light. The isotropic width is the one that loses as much light
-  // to masking between the slopes.
+  // Computes the albedo of a surface that reflects all light. It uses the isotropic width with the same loss
+  // of light by masking between the slopes.
   const float mean2 = 0.5f * (view.alpha2_in_plane + view.alpha2_across);
   const float away = 1 - view.facing;
   const float alpha2 = mean2 - 0.5f * away * away * away * (view.alpha2_in_plane - mean2);
   const float whole = std::clamp(
       polynomial<4>(albedo_k, view.openness, std::sqrt(std::clamp(alpha2, 0.0f, 1.0f))), 0.0f, 1.0f);
-  // Evaluates Fresnel at the cosine between normals and view that yields its mean.
+  // Evaluates Fresnel at the cosine between normal and view for which it equals its mean over the normals.
   const float rho = view.roughness_in_plane;
   const float cosine = view.facing + rho * polynomial<4>(fresnel_k, std::sqrt(view.facing), rho);
   const float off = std::clamp(1 - cosine, 0.0f, 1.0f), off2 = off * off;

@@ -17,25 +17,29 @@ namespace nook::probe {
 struct Surface {
   Vec3 normal{0, 0, 1};       // unit
   Vec3 view{0, 0, 1};         // unit, towards the eye
-  Vec3 tangent{1, 0, 0};      // unit, across the normal; read only if alpha_x and alpha_y differ
-  float alpha_x = 0.25f;      // GGX width, roughness squared, along the tangent
-  float alpha_y = 0.25f;      // across it; the isotropic form takes their geometric mean
+  Vec3 tangent{1, 0, 0};      // unit, perpendicular to the normal; only read if alpha_x and alpha_y differ
+  float alpha_x = 0.25f;      // GGX width along the tangent: the squared roughness
+  float alpha_y = 0.25f;      // GGX width along the bitangent; the isotropic form uses the geometric mean of
+                              // both widths
   float reflectance = 0.04f;  // at normal incidence
 };
 
-// A surface seen from a direction. The plane of incidence contains the normal and the view. If the view is
-// along the normal, every plane through the normal is correct, and the plane that contains the tangent is
-// used.
+// A surface, seen from a direction. The plane of incidence contains the normal and the view direction. If the
+// view direction equals the normal, every plane through the normal would be correct; the plane that contains
+// the tangent is used.
 struct SurfaceView {
   Vec3 tangent, bitangent;
   float view_x, view_y;  // dot(view, tangent), dot(view, bitangent)
   float facing;          // dot(normal, view), 1e-3 or more
-  float stretched_x;     // plane of incidence in stretched space, a unit vector along tangent and bitangent
+  float stretched_x;     // the direction of the plane of incidence in stretched space: a unit vector in the
+                         // axes tangent and bitangent
   float stretched_y;
   float alpha2_in_plane;     // squared width of slopes within the plane
   float alpha2_across;       // squared width of slopes across the plane
-  float openness;            // facing / sqrt(facing^2 + (slopes towards the eye)^2): 0: masked, 1: open
-  float roughness_in_plane;  // square root of the isotropic alpha with the same tilt
+  float openness;            // facing / sqrt(facing^2 + (slopes towards the eye)^2); 0 is fully masked, 1 is
+                             // open
+  float roughness_in_plane;  // the square root of alpha, for the isotropic alpha that tilts normals equally
+                             // far
 };
 SurfaceView view_of(const Surface& surface);
 
@@ -51,8 +55,8 @@ float directional_albedo(const SurfaceView& view, const Surface& surface);
 struct VisibleNormal {
   float across, along;  // coordinates in the disc, across and along the plane of incidence
   float share;          // area of the disc that the normal represents, relative to the other normals
-  float sharpness;  // sharpness of the lobe that the normals around this one reflect, divided by the density
-                    // of directions there
+  float sharpness;  // the normals around this one reflect a lobe; this is the lobe's sharpness, divided by
+                    // the density of reflected directions there
 };
 // middle_normal returns the normal for a single lobe. visible_normals returns four normals for four lobes:
 // two in the plane of incidence, and one on each side of it.

@@ -18,7 +18,7 @@ void fit_gloss(const double* gram, const double* moment, std::uint32_t n, std::s
     // With few samples, noise may make a moment negative.
     least[i] = row > 0 ? std::max(least_gloss * moment[i * stride] / row, 0.0) : 0.0;
   }
-  // After subtracting the lower limits, the remaining amplitudes only have to be non-negative.
+  // Subtracts the lower limits. The remaining amplitudes then only have to be non-negative.
   for (std::size_t i = 0; i < n; ++i) {
     rest_moment[i] = moment[i * stride];
     for (std::size_t k = 0; k < n; ++k) rest_moment[i] -= gram[i * n + k] * least[k];

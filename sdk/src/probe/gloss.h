@@ -1,7 +1,7 @@
-// Amplitudes of lobes for glossy reflection. Amplitudes that preserve bands 0 to 2 of the light cause
-// ringing: between strong lights, the radiance becomes negative. Irradiance averages over the hemisphere and
-// does not show this, but a glossy surface would show a black patch. So glossy reflection has its own
-// amplitudes, which are never negative. The axes and sharpnesses of the lobes are the same.
+// Amplitudes of lobes for glossy reflection. If amplitudes preserve bands 0 to 2 of the light, the radiance
+// can become negative between strong lights (ringing). Irradiance averages over the hemisphere and does not
+// show this, but a glossy surface would show a black patch. So glossy reflection has its own amplitudes,
+// which are never negative. The axes and sharpnesses of the lobes are the same.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
-// Real spherical harmonics of bands 0 to 4, orthonormal over the sphere, band by band from m = -l to l,
-// without the Condon-Shortley phase (P.-P. Sloan, Stupid Spherical Harmonics Tricks, 2008).
+// Real spherical harmonics of bands 0 to 4, orthonormal over the sphere. They are stored band by band, from m
+// = -l to l, and do not include the Condon-Shortley phase (P.-P. Sloan, Stupid Spherical Harmonics Tricks,
+// 2008).
 #pragma once
 
 #include <array>
@@ -52,19 +53,19 @@ constexpr void evaluate_harmonics(std::uint32_t order, T x, T y, T z, T* values)
   values[24] = T(0.6258357354491761) * (xx * (xx - 3 * yy) - yy * (3 * xx - yy));
 }
 
-// The clamped cosine's factor of each band: irradiance is the sum over bands of factor times the band's
-// radiance.
+// The factor of the clamped cosine for each band: irradiance is the sum over the bands of the factor times
+// the band's radiance.
 inline constexpr double cosine_band[5] = {3.141592653589793, 2.0943951023931953, 0.7853981633974483, 0,
                                           -0.13089969389957473};
 
-// Light as spherical harmonics of bands 0 and 1, and the part of band 2 that is symmetric around band 1's
-// axis. This is ZH3 (T. Roughton, P.-P. Sloan, A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3: Quadratic Zonal
-// Harmonics, 2024).
+// Light as spherical harmonics of bands 0 and 1, and the part of band 2 that is rotationally symmetric around
+// the axis of band 1. This is ZH3 (T. Roughton, P.-P. Sloan, A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3:
+// Quadratic Zonal Harmonics, 2024).
 
 inline constexpr std::size_t zonal_count = 5;  // coefficients: bands 0 and 1, then the zonal one
 
 // `harmonics` holds the nine coefficients of bands 0 to 2. The zonal coefficient is the projection of band 2,
-// which has the smallest squared error.
+// because the projection has the smallest squared error.
 std::array<Vec3, zonal_count> to_zonal(std::span<const Vec3> harmonics);
 
 Vec3 zonal_radiance(std::span<const Vec3> zonal, Vec3 direction);

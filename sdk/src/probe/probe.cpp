@@ -36,7 +36,7 @@ void check_grid(const Grid& grid, nook_result code) {
 
 namespace {
 
-// The two probes on either side of a coordinate along one axis, and the weight of the second probe.
+// For one axis: the probes before and after a coordinate, and the weight of the second probe.
 struct Between {
   std::uint32_t first, second;
   float weight;
@@ -143,7 +143,7 @@ void check_probes(const Probes& probes, nook_result code) {
 
 namespace {
 
-// Interpolates between rows of `out.size()` values. There is one row for each probe.
+// Interpolates between the rows of the probes. Each row has `out.size()` values.
 void interpolate_rows(const Grid& grid, std::span<const Vec3> rows, Vec3 position_ws, std::span<Vec3> out) {
   const Between x = between(position_ws.x, grid.origin_ws.x, grid.spacing_ws.x, grid.counts[0]);
   const Between y = between(position_ws.y, grid.origin_ws.y, grid.spacing_ws.y, grid.counts[1]);

@@ -40,7 +40,7 @@ struct CellWalls {
                                               all_corners, all_corners, all_corners, all_corners};
 
   static constexpr std::uint8_t all_corners = 255;
-  // Returns true if the walls of this cell do not change the interpolation.
+  // Returns true if the cell has no walls that change the interpolation.
   bool open() const {
     for (const std::uint8_t mask : counts)
       if (mask != all_corners) return false;
@@ -57,7 +57,8 @@ WallPlane stored(const WallPlane& plane);
 struct GridWalls {
   explicit GridWalls(Memory* memory = default_memory()) : cell(memory) {}
   Vector<CellWalls> cell;  // x fastest, then y, z; empty: interpolation ignores walls
-  float bias = 0;          // metres; moves places along the surface's normal before the lookup
+  float bias = 0;          // metres; a point is moved by this distance along the surface's normal before the
+                           // lookup
 
   bool any() const { return !cell.empty(); }
 };
@@ -99,8 +100,8 @@ struct GridPlace {
 };
 GridPlace place_in(const Grid& grid, Vec3 position_ws);
 
-// Returns the trilinear weights of the eight corners. The interpolation factor of each axis is clamped to
-// [least, 1 - least].
+// Returns the trilinear weights of the eight corners. Before this, the interpolation factor of each axis is
+// clamped to [least, 1 - least].
 std::array<float, 8> corner_weights(Vec3 in_cell, float least);
 
 struct Probes {
@@ -109,9 +110,10 @@ struct Probes {
 
   Basis basis;
   Grid grid;
-  Vector<Vec3> coefficients;  // probe by probe (x fastest, then y, z), basis.count of RGB each
-  Vector<Vec3> gloss;         // Gaussians: amplitudes for glossy reflection, none negative, see gloss.h, in
-                              // the order of coefficients; empty: glossy reflection reads coefficients
+  Vector<Vec3> coefficients;  // probe by probe (x fastest, then y, then z); basis.count RGB values for each
+                              // probe
+  Vector<Vec3> gloss;         // only for Gaussians: non-negative amplitudes for glossy reflection (gloss.h),
+                              // in the same order; if empty, glossy reflection uses `coefficients`
   String recipe;              // settings of the bake, JSON; may be empty
   GridWalls walls;            // walls in the cells of the grid
 
@@ -130,12 +132,11 @@ void check_probes(const Probes& probes, nook_result code);
 void interpolate(const Probes& probes, Vec3 position_ws, std::span<Vec3> coefficients);
 // Interpolates the amplitudes for glossy reflection in the same way. The probes must have them.
 void interpolate_gloss(const Probes& probes, Vec3 position_ws, std::span<Vec3> amplitudes);
-// Interpolates the coefficients for a point of a surface with this normal. It uses only the probes that the
-// walls allow on the surface's side.
+// Interpolates the coefficients for a point of a surface with this normal. Walls divide the cell into sides.
+// Only the probes that the walls allow on the side of the point are used.
 void interpolate(const Probes& probes, Vec3 position_ws, Vec3 normal, std::span<Vec3> coefficients);
 
-// Only for Gaussians: writes lobe i with the axis and sharpness of function i and coefficient i as its
-// amplitude.
+// Only for Gaussians. Lobe i gets the axis and sharpness of function i, and coefficient i as its amplitude.
 void to_lobes(const Basis& basis, std::span<const Vec3> coefficients, std::span<SphericalGaussian> lobes);
 
 }  // namespace nook::probe

@@ -154,8 +154,8 @@ void read_lobes(ByteReader in, Basis& basis) {
   in.check_end();
 }
 
-// Fills in the functions of a basis without lobes. The file's description must match the library's basis of
-// that order.
+// Sets the functions of a basis that is not made of lobes. The description in the file must match the
+// library's basis of the same order.
 void complete(Basis& basis) {
   check_basis(basis, NOOK_ERROR_BAD_FILE);
   Basis made = basis.kind == BasisKind::dice ? dice_basis(basis.domain, basis.up)

@@ -1,4 +1,5 @@
-// Evaluates the light of a probe: radiance from a direction, irradiance on a surface, and glossy reflection.
+// Evaluates the light of a probe: the radiance from a direction, the irradiance on a surface, and glossy
+// reflection.
 #pragma once
 
 #include <nook/nook_probe.h>
@@ -25,13 +26,14 @@ Vec3 irradiance(std::span<const SphericalGaussian> lobes, IrradianceForm form, V
 Vec3 radiance(const Basis& basis, std::span<const Vec3> coefficients, Vec3 direction);
 Vec3 irradiance(const Basis& basis, std::span<const Vec3> coefficients, IrradianceForm form, Vec3 normal);
 
-// Glossy reflection of lobes. The directions from which a GGX surface reflects light to the eye are
-// approximated by lobes. The integrals of these lobes sum to 1, and the lobes are multiplied by the surface's
-// directional albedo. The integral of such a lobe times a lobe of the light has a closed form.
+// Glossy reflection of lobes. A GGX surface reflects light from many directions to the eye. The distribution
+// of these directions is approximated by lobes, too. The integrals of these lobes sum to 1. They are
+// multiplied by the surface's directional albedo. The integral of the product of such a lobe and a lobe of
+// the light has a closed form.
 
 enum class SpecularForm : std::uint8_t {
   isotropic = 0,   // one lobe, after J. Wang et al., All-Frequency Rendering, 2009
-  anisotropic = 1  // four
+  anisotropic = 1  // four lobes
 };
 
 // Returns one lobe for the directions from which a surface reflects light to the eye. It uses the mean of
@@ -39,7 +41,7 @@ enum class SpecularForm : std::uint8_t {
 // this function, the axis of the lobe is the mean of the reflected directions instead. The two axes differ
 // near the horizon, where a rough surface reflects light from far above the mirror direction.
 SphericalGaussian reflected_lobe(const Surface& surface);
-// Returns four lobes. Together they can represent reflections that are stretched, near the horizon or because
+// Returns four lobes. Together they can represent stretched reflections, which occur near the horizon and if
 // the two widths differ.
 std::array<SphericalGaussian, 4> reflected_lobes(const Surface& surface);
 
