@@ -90,19 +90,20 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
         axis = v;
       }
   }
-  // Finds the longest axis with the power method. The start vector is the longest one among the casters' own
-  // axes and twice the casters' offsets from the centre.
+  // Finds the longest axis with the power method. The start vector is the longest of these vectors: the axis
+  // of each caster, and twice the offset of each caster from the centre.
   axis = normalised(axis);
   for (int step = 0; step < 6; ++step) {
     const Vec3 next = spread.times(axis);
     if (!(squared(next) > 1e-20f)) break;
     axis = normalised(next);
   }
-  // The variance along the axis, minus the variance across it, is the variance of a segment.
+  // The length of the segment follows from its variance, which is the variance along the axis minus the
+  // variance across it.
   const float along2 = dot(axis, spread.times(axis)), across2 = 0.5f * (spread.trace() - along2);
-  // For a bent part, this segment is longer than the part itself. So the segment is shortened until the
-  // capsule ends where the casters end, and the capsule keeps the casters' centre. Otherwise the capsule
-  // would reach through the surface on which the casters stand.
+  // For a bent part, this segment is longer than the part itself. The capsule could then reach through the
+  // surface on which the casters stand. So the segment is shortened until the capsule ends where the casters
+  // end. The centre of the capsule does not change.
   float reach_below = 0, reach_above = 0;
   for (const std::uint8_t i : order) {
     const PosedCaster& c = casters[i];
@@ -116,8 +117,8 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
     return 0.5f * (std::sqrt(0.25f * length * length + 4 * area / pi) - 0.5f * length);
   };
   float extent = std::sqrt(12 * std::max(along2 - across2, 0.0f));
-  // A shorter segment needs a larger radius, and a larger radius shortens the segment again. So a few
-  // iterations are needed.
+  // A shorter segment needs a larger radius for the same projected area, and with a larger radius, the
+  // segment must be shortened again. So a few iterations are needed.
   for (int step = 0; step < 3; ++step)
     extent = std::min(extent, 2 * std::max(reach - radius_of_length(extent), 0.0f));
   const float radius = radius_of_length(extent);
@@ -127,8 +128,8 @@ Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_
 
 float merging_distance(float strength, float radius, float error_ao) {
   if (!(error_ao > 0)) return 1e15f;
-  // The difference decreases with the fourth power of the distance. The factor 0.1 was measured on bodies by
-  // the test of this file.
+  // The difference in AO decreases with the fourth power of the distance. The factor 0.1 was measured on
+  // bodies, by the test of this file.
   const float far = std::sqrt(std::sqrt(0.1f * strength * radius * radius / error_ao));
   return std::max(far, 1.2f * radius);
 }

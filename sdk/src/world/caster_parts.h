@@ -1,5 +1,5 @@
 // Splits a body into parts, such as limbs. Also merges the casters of a part or of a whole body into one
-// capsule. At a distance, this capsule replaces the casters.
+// capsule, which replaces them for distant receivers.
 #pragma once
 
 #include <array>
@@ -21,18 +21,19 @@ struct CasterParts {
   std::array<std::uint8_t, max_part_casters> order{};
 };
 
-// Makes parts of five casters on average. `middle` holds the centres of the casters, at most max_part_casters
-// of them. The first casters of the parts are chosen as far from each other as possible (Gonzalez 1985).
+// Makes parts of five casters on average. `middle` holds the centres of the casters. There may be at most
+// max_part_casters. The first casters of the parts are chosen as far from each other as possible (Gonzalez
+// 1985).
 CasterParts parts_of(std::span<const Vec3> middle);
 
 // Returns one capsule, with radii for AO, that replaces the casters with the indices in `order`. The capsule
 // has the same mean projected area, the same centre and the same longest axis as these casters together.
 Capsule merged(std::span<const PosedCaster> casters, std::span<const std::uint8_t> order);
 
-// Returns the distance in metres from the centre of the merged capsule from which on the capsule may replace
-// its casters. At this distance, the RMS difference in AO over directions and normals is about error_ao.
-// `strength` is the sum of the casters' caster_strength. `radius` is the radius of a sphere around the
-// casters.
+// Returns a distance from the centre of the merged capsule, in metres. Beyond this distance, the capsule may
+// replace its casters. At this distance, the RMS difference in AO over directions and normals is about
+// error_ao. `strength` is the sum of the casters' caster_strength. `radius` is the radius of a sphere around
+// the casters.
 float merging_distance(float strength, float radius, float error_ao);
 
 }  // namespace nook::world

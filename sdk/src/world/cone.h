@@ -1,16 +1,16 @@
-// The share of a cone of directions that is hidden by capsules. The cone is, for example, the light of a sun
-// or a lamp.
+// Computes which share of a cone of directions is hidden by capsules. The cone contains, for example, the
+// directions to a sun or a lamp.
 //
 // The cone is divided into `cone_parts` smaller cones (parts) of equal solid angle, whose axes lie on two
-// rings. Consider the plane at unit distance that is perpendicular to the axis of a part, in units of the
-// part's radius. In this plane, the part is the unit disc, and a capsule is the convex hull of two discs. If
-// the capsule is wider than the part, it is treated as a half-plane. The border of this half-plane is as far
-// from the part's axis as the capsule's round edge. If the capsule is narrower, it is treated as a rectangle
-// of the same area. The share of the part that it hides is then the product of two shares: one along the
-// rectangle and one across it. In each part, the open
-// shares of all capsules are multiplied together, as if the capsules covered the part independently. The open
-// share of the cone is the mean over its parts. So the shares of capsules that cover different parts add up.
-// Capsules that fully cover the same part do not darken it twice.
+// rings. To find the share of a part that a capsule hides, both are projected to the plane that is
+// perpendicular to the part's axis. In this plane, in units of the part's radius, the part is the unit disc,
+// and a capsule is the convex hull of two discs. If the capsule is wider than the part, it is treated as a
+// half-plane. The border of the half-plane is as far from the part's axis as the edge of the capsule. If the
+// capsule is narrower, it is treated as a rectangle of the same area. The share of the part that it hides is
+// then the product of two shares: one along the rectangle and one across it. In each part, the open shares of
+// all capsules are multiplied together, as if the capsules covered the part independently. The open share of
+// the cone is the mean over its parts. So if capsules cover different parts, their shares add up. If several
+// capsules fully cover the same part, it is darkened only once.
 #pragma once
 
 #include <cmath>
@@ -54,8 +54,9 @@ inline ConeParts cone_parts_of(Vec3 axis, float half_angle_radians) {
   return parts;
 }
 
-// Returns the share of a unit disc beyond a line at the signed distance s. The error against the exact
-// circular segment is at most 0.008, and the slope at the middle is exact.
+// Returns the share of a unit disc that is beyond a line. s is the signed distance of the line from the
+// centre. The error against the exact circular segment is at most 0.008, and the slope at the middle is
+// exact.
 template <class F>
 F share_beyond(F s) {
   const F x = min(max(s, F(-1.0f)), F(1.0f));
@@ -69,8 +70,8 @@ F part_coverage(const CapsuleLanes<F>& c, F lx, F ly, F lz, F slope) {
   const F one(1.0f), zero(0.0f);
   const F depth_a = fma(c.ax, lx, fma(c.ay, ly, c.az * lz)),
           depth_b = fma(c.bx, lx, fma(c.by, ly, c.bz * lz));
-  // Cuts off the part of the capsule that is behind the receiver. The cut is very close to the plane through
-  // the receiver. So the end of the remaining capsule still appears far to the side.
+  // Cuts off the part of the capsule that is behind the receiver. The cut is only slightly in front of the
+  // plane through the receiver, so the end of the remaining capsule is projected far to the side.
   const F deepest = max(depth_a, depth_b);
   const F least = F(0.02f) * deepest;
   const F da = max(depth_a, least), db = max(depth_b, least);
@@ -90,8 +91,8 @@ F part_coverage(const CapsuleLanes<F>& c, F lx, F ly, F lz, F slope) {
   const F xa = fma(ax, dx, fma(ay, dy, az * dz)) * inverse;
   const F a2 = fma(ax, ax, fma(ay, ay, az * az));
   const F aside2 = max(a2 - xa * xa, zero), aside = sqrt(aside2);
-  // Finds the disc of the capsule that reaches nearest to the axis. If the capsule is tapered, this disc is
-  // not at the foot of the perpendicular, but closer to the thicker end.
+  // Of all discs between the capsule's ends, finds the one whose edge is nearest to the part's axis. If the
+  // capsule is tapered, this disc is not at the foot of the perpendicular, but closer to the thicker end.
   const F nearest = min(max(fma(dr * inverse, aside, zero - xa) * inverse, zero), one);
   const F radius = fma(nearest, dr, ra), along_x = fma(nearest, length, xa);
   const F distance = sqrt(fma(along_x, along_x, aside2));

@@ -1,6 +1,6 @@
-// The share of the cosine-weighted hemisphere above a surface point that a capsule covers. As in the
-// character's kernels, the formulas are templates over a number type F: float, double, a SIMD vector or a
-// dual number.
+// Computes the share of the cosine-weighted hemisphere above a surface point that a capsule covers. As in the
+// kernels in sdk/src/character, the formulas are templates over a number type F: float, double, a SIMD vector
+// or a dual number.
 //
 // Seen from a point, a capsule is the convex hull of two discs on the unit sphere: directions u and v to its
 // ends, sines s_u and s_v of their angular radii, and c = dot(u, v). Lambert's contour integral of this
@@ -15,10 +15,10 @@
 // clamping the cosines to [-1, 1] gives the larger disc's form factor.
 //
 // On the surface of a capsule, the region is a half-space. A point inside a capsule uses the half-space of
-// the nearest point of the surface, so that the share is continuous. If the sphere of an end contains the
-// point, the sine of this end is limited to just below 1. Inside the round wall, no great circle touches both
-// ends and gamma^2 would be negative. There Phi is the unit vector towards the axis, (alpha u + beta v) /
-// sqrt(alpha s_u + beta s_v).
+// the nearest point of the surface, so that the share is continuous. If the sphere at an end of the capsule
+// contains the point, the sine of this end is limited to just below 1. If the point is inside the capsule
+// between its ends, no great circle touches both discs, and gamma^2 would be negative. There Phi is the unit
+// vector towards the axis, (alpha u + beta v) / sqrt(alpha s_u + beta s_v).
 #pragma once
 
 #include "sdk/src/core/light_bands.h"
@@ -27,8 +27,8 @@
 
 namespace nook::world {
 
-// Returns the angle whose versine (1 - cosine) is w in [0, 2]. The versine is used because it does not lose
-// digits for small angles.
+// Returns the angle whose versine (1 - cosine) is w in [0, 2]. For small angles, the versine does not lose
+// digits, unlike the cosine.
 template <class F>
 F angle_of_versine(F w) {
   const F one(1.0f);
@@ -73,22 +73,23 @@ HullFactor<F> hull_factor(F su, F sv, F spread) {
   const F inverse_pi(0.318309886f);
   const F a = fma(lambda, alpha, fma(phi_u, su * su, gamma * s * beta)) * inverse_pi;
   const F b = fma(lambda, beta, fma(phi_v, sv * sv, gamma * s * alpha)) * inverse_pi;
-  // If one disc hides the other, gamma is 0 as well, but then the angle between the ends is small.
+  // gamma is also 0 if one disc hides the other. The difference is that then the angle between the ends is
+  // small.
   const F within = select(less(one, versine), across2, zero);
   const F inverse_across = rsqrt(max(across2, F(1e-12f)));
   return {select(less(one, within), alpha * inverse_across, a),
           select(less(one, within), beta * inverse_across, b)};
 }
 
-// Returns the share above the horizon. `factor` is dot(n, Phi), and `size2` is |Phi|^2. `lowest` is the
-// smaller height above the horizon of the two spheres at the capsule's ends, each in units of its radius. It
-// is at least 1 if the whole capsule is above the horizon.
+// Returns the covered share of the hemisphere above the horizon. `factor` is dot(n, Phi), and `size2` is
+// |Phi|^2. For each sphere at an end of the capsule, take the height of its centre above the horizon, divided
+// by its radius; `lowest` is the smaller value. It is at least 1 if the whole capsule is above the horizon.
 //
 // The region is treated as the disc that has the same vector Phi: its sine is sqrt(|Phi|), and t = dot(n,
 // Phi) / |Phi|^(3/2) is the height of its centre in radii. The disc's share above the horizon is |Phi|^(3/2)
 // (t + x(t)) for |t| < 1, where x(t) = (1 - t) / 2 - w1 (1 - t^2) - w2 (1 - t^2)^2 meets x(t) - x(-t) = -t,
 // which is exact; w1 and w2 are polynomials in sqrt(1 - |Phi|), 0 on the surface and exact far away. The
-// error of this fit against the closed form of a disc is at most 0.0052, and its rms 0.001.
+// error of this fit against the closed form of a disc is at most 0.0052, and its RMS error is 0.001.
 template <class F>
 F above_horizon(F factor, F size2, F lowest) {
   const F one(1.0f), zero(0.0f);
@@ -112,8 +113,8 @@ struct CapsuleLanes {
   F ax, ay, az, bx, by, bz, radius_a, radius_b;
 };
 
-// Returns the share in [0, 1] for a receiver at the origin with a unit normal, and the vector Phi. If an
-// input is NaN, Phi is NaN and the share is 0.
+// Returns the covered share, in [0, 1], and the vector Phi. The receiver is at the origin, and `normal` must
+// be a unit vector. If an input is NaN, Phi is NaN and the share is 0.
 template <class F>
 F coverage(const CapsuleLanes<F>& capsule, F nx, F ny, F nz, Direction<F>& phi) {
   const F one(1.0f), zero(0.0f), tiny(1e-24f);

@@ -1,12 +1,13 @@
 // Bands 0 to 4 of light that is a sum of lobes, and bands 0 to 4 of densities over directions. The bands of
-// light and of densities are stored as factors of 25 harmonic polynomials. Densities are summed first and
-// then combined with the light. The mean of the light under a density around d is the sum over the bands l of
-// A_l times the light's band at d. A_l is the mean of the Legendre polynomial of l under the density.
+// light and of densities are stored as factors of 25 harmonic polynomials. All densities are summed before
+// the sum is combined with the light. The mean of the light under a density around d is the sum over the
+// bands l of A_l times the light's band l in the direction d. A_l is the mean, under the density, of the
+// Legendre polynomial of degree l.
 //
-// The polynomials are spherical harmonics without their normalisation factors. The terms of the light contain
-// these factors. Bands 3 and 4 are only used if there are enough lobes. With fewer lobes, bands 3 and 4 would
-// describe the shape of the lobes instead of the light. Band 3 is weighted by 0.8 and band 4 by 0.6, to
-// reduce ringing.
+// The polynomials are spherical harmonics without their normalisation factors. The factors are included in
+// the terms of the light. Bands 3 and 4 are only used if the light has enough lobes. With few lobes, these
+// bands would contain the shape of the lobes, and not the light. Band 3 is weighted by 0.8 and band 4 by 0.6,
+// to reduce ringing.
 #pragma once
 
 #include <span>
@@ -26,7 +27,7 @@ struct LightTerms {
   Vec3 darkest;  // see LightBands::darkest
 };
 
-// Calls visit(index, band, value) for each polynomial at the unit vector d.
+// Evaluates each polynomial at the unit vector d, and calls visit(index, band, value).
 template <class F, class Visit>
 void visit_terms(const Direction<F>& d, Visit&& visit) {
   const F one(1.0f), three(3.0f);
@@ -107,16 +108,17 @@ inline LightTerms terms_of(std::span<const SphericalGaussian> lobes) {
   return light;
 }
 
-// Occlusion of light for each colour channel. Casters that cover the share f of a point's hemisphere remove
-// the share f rho of its light. rho is the mean radiance behind the casters, divided by the mean radiance of
-// the hemisphere, both weighted by the cosine. The light and the casters are reduced to bands 0 to 4.
+// Occlusion of light for each colour channel. If casters cover the share f of a point's hemisphere, they
+// remove the share f rho of the light that it receives. rho is the mean radiance behind the casters, divided
+// by the mean radiance of the hemisphere, both weighted by the cosine. The light and the casters are reduced
+// to bands 0 to 4.
 //
 // A caster is treated as the disc that has the caster's vector Phi (coverage.h). s = |Phi| is the squared
-// sine of the disc's angular radius. Around its centre, a cosine-weighted disc has the bands A1 = 2 (1 - (1 -
-// s)^(3/2)) / (3 s), approximated within 0.002 by 1 - s / 4 - s^2 / 12, A2 = 1 - 3 s / 4, A3 = (1 - s)^(3/2)
-// and A4 = 1 - 5 s / 2 + 35 s^2 / 24. If the caster fills the hemisphere, they equal the hemisphere's bands 2
-// / 3, 1 / 4, 0 and -1 / 24, so that rho is 1. If the horizon cuts the disc, the middle of the visible part
-// is used as its centre.
+// sine of the disc's angular radius. Relative to the direction of its centre, a cosine-weighted disc has the
+// bands A1 = 2 (1 - (1 - s)^(3/2)) / (3 s), approximated within 0.002 by 1 - s / 4 - s^2 / 12, A2 = 1 - 3 s /
+// 4, A3 = (1 - s)^(3/2) and A4 = 1 - 5 s / 2 + 35 s^2 / 24. If the caster fills the hemisphere, these bands
+// equal the bands of the hemisphere, which are 2 / 3, 1 / 4, 0 and -1 / 24. Then rho is 1. If the horizon
+// cuts the disc, the middle of the part above the horizon is used as its centre.
 //
 // If several casters darken a point, AO is the product of their open shares, and the open share of the light
 // is 1 - (1 - AO) R. R is the mean of rho over the casters, weighted by their shares. Under constant light

@@ -79,14 +79,15 @@ void load_points(const SampleRequest& request, std::uint32_t first, Block& block
   block.radius = 0.5f * length(high - low);
 }
 
-// Returns true if the casters may reduce AO by cutoff_error or more at any point of the block. False for NaN.
+// Returns true if the casters may reduce AO by cutoff_error or more at some point of the block. Returns false
+// if a value is NaN.
 bool reaches(const CasterGroup& group, const Block& block, float cutoff_error) {
   const float gap = length(group.centre - block.centre) - group.radius - block.radius;
   if (gap <= 0) return true;
   return group.strength >= cutoff_error * gap * gap;
 }
 
-// Returns true if the casters may hide a part of the cone at any point of the block. The parts of a cone
+// Returns true if the casters may hide a part of the cone at some point of the block. The parts of a cone
 // extend beyond the cone's edge by at most half their width.
 bool stands_before(const CasterGroup& group, const Block& block, const SampleRequest& request, float wide) {
   const Vec3 d = group.centre - block.centre;

@@ -1,4 +1,5 @@
-// Computes AO, light and the open share of a cone of light at points, from groups of casters such as bodies.
+// Computes values at points from groups of casters, such as bodies: AO, the open share of a cone of light,
+// and the open share of coloured light.
 #pragma once
 
 #include <cstddef>
@@ -23,7 +24,7 @@ struct CasterGroup {
 struct CasterGroups {
   std::uint32_t count = 0;
   const void* user = nullptr;
-  // Returns a group by its index. The group may refer to `room`, so `room` must outlive the group.
+  // Returns a group by its index. The returned group may point to `room`, so `room` must outlive it.
   CasterGroup (*group)(const void* user, std::uint32_t index, PosedCaster& room) = nullptr;
 };
 
@@ -33,8 +34,8 @@ struct SampleRequest {
   std::uint32_t count = 0;
   std::size_t stride = 3;             // distance between points in floats, in both arrays
   const LightTerms* terms = nullptr;  // the light for the coloured result; NULL: no coloured result
-  float cutoff_error =
-      0;  // in AO; a group is skipped for a block of points if it reduces their AO by less than this
+  float cutoff_error = 0;  // a difference in AO; a group is skipped for a block of points if it reduces their
+                           // AO by less than this
   bool has_light = false;
   Vec3 light_axis;  // unit vector towards the light
   float light_half_angle_radians = 0;

@@ -10,9 +10,9 @@ constexpr std::uint32_t tiles_along(std::uint32_t length_px, std::uint32_t tile_
   return (length_px + tile_px - 1) / tile_px;
 }
 
-// The extent of a sphere along one screen axis: the tangents of the angles, measured from the camera's axis,
-// between which the sphere appears. If the sphere reaches beside or behind the camera, the extent is the
-// whole screen.
+// The extent of a sphere along one screen axis. The sphere appears between two angles from the camera's axis;
+// their tangents are stored. If a part of the sphere is beside or behind the camera, the extent is the whole
+// screen.
 struct Extent {
   float low = -INFINITY, high = INFINITY;
 };
@@ -68,8 +68,9 @@ TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius) {
 }
 
 TileRange shaded_tiles(const TileGrid& grid, Vec3 centre, float radius, const Shadow& shadow) {
-  // Divides the length of the shadow into steps. Each step is so short that a sphere that contains this part
-  // of the shadow is not much larger than the shadow is wide. The last step covers the remaining length.
+  // Divides the length of the shadow into steps, and bounds each part of the shadow by a sphere. The steps
+  // are so short that the diameter of the sphere is not much larger than the width of the shadow. The last
+  // step covers the remaining length.
   constexpr int most_steps = 12;
   TileRange all;
   float from = 0;
@@ -97,7 +98,7 @@ std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> 
   for (const TileRange& r : ranges)
     if (!r.empty)
       entries += std::uint64_t{r.last_column - r.first_column + 1} * (r.last_row - r.first_row + 1);
-  // Each tile needs one texel for its head, and may have one texel of entries that is not full.
+  // For each tile, there is one texel for its head, and at most one texel of entries that is not full.
   return 2 * std::uint64_t{grid.columns()} * grid.rows() + entries / 4;
 }
 

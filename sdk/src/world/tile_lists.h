@@ -1,6 +1,6 @@
 // For each tile of the screen, lists the bodies that may darken surfaces in the tile. The lists do not depend
-// on the depth of the surfaces. A body is in the list of every tile that the sphere of the body's reach
-// covers on the screen.
+// on the depth of the surfaces. Each body has a sphere of reach, outside which it darkens nothing. The body
+// is in the lists of all tiles that this sphere covers on the screen.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace nook::world {
 
-// A viewport that is divided into tiles of tile_px x tile_px pixels. In a perspective view, x in view space
-// is (x_scale pixel + x_offset) * depth. In an orthographic view, it is x_scale pixel + x_offset. y is
-// computed in the same way.
+// A viewport that is divided into tiles of tile_px x tile_px pixels. For a pixel coordinate p, x in view
+// space is (x_scale p + x_offset) * depth in a perspective view, and x_scale p + x_offset in an orthographic
+// view. y is computed in the same way.
 struct TileGrid {
   std::uint32_t width_px = 0, height_px = 0, tile_px = 32;
   float x_scale = 1, x_offset = 0, y_scale = 1, y_offset = 0;
@@ -28,8 +28,8 @@ struct TileRange {
   bool empty = true;
 };
 
-// Returns the tiles that a sphere may cover. They contain every point of the sphere that is in front of the
-// camera. `centre` is in view space, metres.
+// Returns the tiles that a sphere may cover. All points of the sphere that are in front of the camera are in
+// these tiles. `centre` is in view space, metres.
 TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius);
 
 // The shadow volume of a body in a cone of light. The shadow volume is the union of spheres along a path. The

@@ -36,7 +36,7 @@ struct WorldKernels {
   // Like open_hemisphere, but also adds each caster to the terms.
   void (*gather_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                             float* open, const GatheredSoa& gathered);
-  // Writes the open share of the light for each channel. `open` is the AO.
+  // Writes the open share of the light for each colour channel. Pass the AO as `open`.
   void (*open_light)(const LightTerms& light, const PointSoa& points, const GatheredSoa& gathered,
                      const float* open, float* const* rgb);
   // open[i] *= the product over the casters of 1 - part_coverage, for one part of a cone.
@@ -49,8 +49,8 @@ const WorldKernels* world_kernels(Isa isa);
 
 }  // namespace nook::world
 
-// Declares the functions that return the tables of the instruction sets; each set has its own translation
-// unit. Use a table only on a processor that has the instruction set.
+// Declares, for each instruction set, the function that returns its table. Each instruction set has its own
+// translation unit. Use a table only on a processor that has the instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs) \
   namespace nook::isa_##name {                   \
     const world::WorldKernels& world_kernels();  \
