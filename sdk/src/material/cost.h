@@ -11,15 +11,15 @@ struct DecodeCost {
   std::uint32_t multiply_adds = 0;
 };
 
-// Returns the number of fetches of spatial modes for each additional place of a footprint. A mode that is
-// stored in blocks takes two fetches.
+// Returns the number of fetches of spatial modes that each additional place of a footprint needs. A mode that
+// is stored in blocks takes two fetches.
 inline std::uint32_t further_fetches(const TensorTables& t) {
   return t.terms * t.view_vec4_count * (t.light_modes + t.packed_modes);
 }
 
-// Returns the cost of decoding a BTF's light modes or a VOTF's value. It counts the coefficients of each term
-// (for three cells if cells blend), and the spatial modes for each coefficient and light mode. If there are
-// several clusters, further fetches read the cluster indices of the terms. If `t` is empty, the cost is 0.
+// Returns the cost of decoding a BTF's light modes or a VOTF's value. Each term needs its coefficients, three
+// times if cells blend. Each coefficient needs the spatial modes of each light mode. If there are several
+// clusters, the cluster indices of the terms must be fetched, too. If `t` is empty, the cost is 0.
 inline DecodeCost decode_cost(const TensorTables& t) {
   const std::uint32_t spatial = t.terms * t.view_vec4_count * t.light_modes;
   const std::uint32_t clusters = t.has_membership() ? vec4_count(t.memberships()) : 0;
@@ -33,8 +33,8 @@ inline DecodeCost light_cost(const TensorTables& btf) {
   return {3 * btf.light_modes / 4, 3 * btf.light_modes};
 }
 
-// Return the cost of a neural material's first layers, and the cost of one light. The cost of one light is
-// the number of products in the matrices that depend on the light.
+// neural_decode_cost returns the cost of a neural material's first layers, and neural_light_cost the cost of
+// one light. The cost of one light is the number of products in the matrices that depend on the light.
 inline DecodeCost neural_decode_cost(const NeuralTables& t) {
   const NeuralShape& s = t.shape;
   return {(s.channels + s.offset_channels) / 4,
@@ -45,8 +45,8 @@ inline DecodeCost neural_light_cost(const NeuralTables& t) {
   return {0, neural_light_inputs * s.units + (s.layers - 1) * s.units * s.units + 3 * s.units};
 }
 
-// Returns the maximum cost of finding a point of the relief. The march computes a place and fetches a height
-// for each of its planes.
+// Returns the maximum cost of finding the point of the relief that a view sees. For each plane, the march
+// computes a place and fetches a height.
 inline DecodeCost relief_cost(const ReliefTables& relief) {
   if (!relief.moves()) return {};
   return {relief.steps ? relief.steps + 1 : 0, 2 * (relief.steps + 1)};

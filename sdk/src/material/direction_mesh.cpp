@@ -6,10 +6,10 @@
 namespace nook::material {
 namespace {
 
-// Measured directions often lie in rings, so that many points are on one circle or line and their Delaunay
-// triangulation is not unique. Each point is moved by up to this distance, deterministically, which makes the
-// triangulation unique. The distance is far below the minimum distance of two directions and far above
-// rounding errors.
+// Measured directions often lie in rings. Then many points are on one circle or line, and their Delaunay
+// triangulation is not unique. To make it unique, each point is moved by up to this distance. The move is
+// deterministic. The distance is far below the minimum distance of two directions and far above rounding
+// errors.
 constexpr double jitter = 1e-7;
 double jittered(float value, std::uint32_t number) {
   const std::uint32_t hash = (number + 1) * 2654435761u;
@@ -39,8 +39,8 @@ DirectionMesh::DirectionMesh(std::span<const Vec3> directions, Memory* memory)
   find_border();
 }
 
-// Uses the Bowyer-Watson algorithm. Inserting a point removes all triangles whose circumcircle contains the
-// point, and fills the hole with triangles to the new point.
+// Uses the Bowyer-Watson algorithm. To insert a point, it removes all triangles whose circumcircle contains
+// the point. Then it fills the hole with triangles that have the new point as a corner.
 void DirectionMesh::triangulate(std::size_t directions) {
   const auto count = static_cast<std::uint16_t>(directions);
   points_.push_back({-far_away, -far_away});
@@ -103,7 +103,7 @@ DirectionMix DirectionMesh::locate(ParabolicPoint at, std::size_t& hint) const {
   const Point p{at.x, at.y};
   std::array<double, 3> weight{};
   for (std::size_t tried = 0; tried < triangles_.size(); ++tried) {
-    // Tries the hint first. The first triangle is then tried at the hint's position in the order.
+    // Tries triangle `hint` first, then all other triangles in order.
     const std::size_t candidate =
         tried == 0 ? std::min(hint, triangles_.size() - 1) : tried - (tried <= hint);
     if (!weights_in(triangles_[candidate], p, weight)) continue;

@@ -26,8 +26,9 @@ class DirectionMesh {
   explicit DirectionMesh(std::span<const Vec3> directions, Memory* memory = default_memory());
 
   // Interpolates linearly inside the triangle that contains the point. A point outside the mesh is moved to
-  // the nearest point on the mesh, so the result is continuous everywhere. Keep `hint` between calls if
-  // successive points are close to each other; this makes the search faster.
+  // the nearest point on the mesh, so the result is continuous everywhere. `hint` is the triangle of the last
+  // call, where the search starts. If successive points are close to each other, pass the same variable
+  // again, to make the search faster.
   DirectionMix locate(ParabolicPoint p, std::size_t& hint) const;
 
   std::size_t triangle_count() const { return triangles_.size(); }
@@ -51,9 +52,9 @@ class DirectionMesh {
   Vector<Edge> cavity_;  // the border of the hole that an insertion leaves
 };
 
-// Returns a factor that fades light to 0 between the lowest sampled lights and the horizon. The factor is the
-// cosine `z` of the light divided by the cosine of the nearest direction on the mesh, which `mix` describes.
-// For directions inside the mesh, the factor is 1.
+// Returns a factor that fades light to 0 between the lowest sampled lights and the horizon. The factor is z /
+// c, where `z` is the cosine of the light, and c the cosine of the nearest direction on the mesh, which `mix`
+// describes. For directions inside the mesh, the factor is 1.
 inline float low_light_share(std::span<const Vec3> lights, const DirectionMix& mix, float z) {
   ParabolicPoint nearest{};
   for (int i = 0; i < 3; ++i) {

@@ -13,15 +13,16 @@ struct Between {
   float t;
 };
 
-// For an axis that repeats (GL_REPEAT). `at` is a texture coordinate, where 0 to 1 covers the texture once.
+// Use it for an axis that repeats (GL_REPEAT). `at` is a texture coordinate. The range from 0 to 1 covers the
+// texture once.
 inline Between repeated(float at, std::uint32_t size) {
   const float place = (at - std::floor(at)) * float(size) - 0.5f, low = std::floor(place);
   const auto first = static_cast<std::uint32_t>(low + float(size)) % size;
   return {first, (first + 1) % size, place - low};
 }
 
-// For an axis that is clamped to the edge: beyond the centre of the outermost texel, that texel's value is
-// used.
+// Use it for an axis that is clamped to the edge. Beyond the centre of the outermost texel, that texel's
+// value is used.
 inline Between edge_clamped(float at, std::uint32_t size) {
   const float place = std::clamp(at * float(size) - 0.5f, 0.0f, float(size - 1)), low = std::floor(place);
   const auto first = static_cast<std::uint32_t>(low);

@@ -1,5 +1,5 @@
-// Anisotropic filtering. Finds the places in the tile that a pixel reads, along the longer axis of the
-// pixel's footprint. shaders/material/footprint.glsl has the same functions.
+// Anisotropic filtering. Finds the places in the material's tile at which a pixel reads it. They lie along
+// the longer axis of the pixel's footprint. shaders/material/footprint.glsl has the same functions.
 #pragma once
 
 #include <array>
@@ -31,12 +31,11 @@ struct PixelSides {
 };
 
 // Approximates the pixel's footprint by an ellipse with the same second moments, and covers the ellipse with
-// up to `count` squares. Returns the centres of the squares, at equal steps along the longer axis. The side
-// of a square equals the shorter axis. If `count` such squares would leave gaps on the longer axis, the
-// squares are larger. The outermost squares end at the ends of the longer axis. So a round footprint has only
-// one square, at its centre. A footprint that is too long for `count` squares is blurred across the longer
-// axis, but has no gaps. If a derivative is NaN or above 1e9 texels, the result is one place, at the centre,
-// in the coarsest level.
+// up to `count` squares. Returns the centres of the squares, at equal steps along the longer axis. The
+// outermost squares end at the ends of the longer axis. So a round footprint has only one square, at its
+// centre. The side of a square is the shorter axis, or longer if `count` such squares would leave gaps. A
+// footprint that is too long for `count` squares is blurred across the longer axis, but has no gaps. If a
+// derivative is NaN or above 1e9 texels, the result is one place, at the centre, in the coarsest level.
 Fetches fetches_along(const PixelSides& pixel, std::uint32_t width, std::uint32_t height,
                       std::uint32_t count);
 

@@ -35,8 +35,8 @@ inline Four mix(const Four& a, const Four& b, float t) {
 struct ImageSize {
   std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // width and height of level 0
 
-  // Returns the index of the first value of a level. For the level after the last, this is the total number
-  // of values.
+  // Returns the index of the first value of a level. If `level` is the number of levels, returns the total
+  // number of values.
   std::size_t level_offset(std::uint32_t level) const {
     std::size_t offset = 0;
     for (std::uint32_t l = 0; l < level; ++l)
@@ -45,7 +45,7 @@ struct ImageSize {
   }
 };
 
-// Where to read a layer: texture coordinates, in tiles, and the mipmap level.
+// The place at which to read a layer: texture coordinates, in tiles, and the mipmap level.
 struct ImagePlace {
   float u = 0, v = 0, level = 0;
 };
@@ -79,12 +79,12 @@ Four trilinear(const ImageSize& size, const Number* numbers, std::uint32_t layer
   });
 }
 
-// The size of images that are stored in blocks. The four values of a texel take two layers with two channels
-// each, as in the textures. Levels are stored one after another, each as layers x block rows x block columns
-// x channels x a block of signed_blocks.h. If a block extends beyond the edge of a level, it repeats the last
-// texels of the level.
+// The size of images that are stored in blocks. As in the textures, a layer has two channels, so the four
+// values of a texel take two layers. Levels are stored one after another, each as layers x block rows x block
+// columns x channels x a block of signed_blocks.h. If a block extends beyond the edge of a level, it repeats
+// the last texels of the level.
 struct BlockSize {
-  std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // layers of two channels
+  std::uint32_t width = 0, height = 0, layers = 0, levels = 0;  // `layers` counts layers of two channels
 
   static constexpr std::size_t block_bytes = 2 * signed_block_bytes;  // of a block of two channels
   std::uint32_t columns(std::uint32_t level) const { return (level_size(width, level) + 3) / 4; }

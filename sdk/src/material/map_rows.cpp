@@ -34,7 +34,7 @@ std::uint32_t best_k(std::span<const std::int32_t> multiples) {
   for (std::uint32_t k = 0; k < max_quotient; ++k) {
     std::size_t bits = 0;
     for (const std::int32_t multiple : multiples) bits += code_bits(folded(multiple), k);
-    // As a function of k, the sum has a single minimum, so the search can stop here.
+    // The number of bits has a single minimum over k, so the search can stop here.
     if (bits >= fewest) break;
     fewest = bits;
     best = k;

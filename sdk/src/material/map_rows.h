@@ -33,11 +33,11 @@ ViewRows sorted_rows(const ViewRows& rows, const TensorShape& shape, Memory* mem
 // Writes sorted rows: the step as f32, two values of k, and then each cell in packed bits. A cell starts with
 // a code for its clusters. Code 0 means that the cluster indices follow, with 8 bits each, or 16 bits if
 // there are more than 256 clusters. Code 1 means that the cell has the same clusters as the previous cell in
-// its row, and code 2 the same as the previous cell in its column. Then the coefficients follow as multiples
-// of the step, minus a prediction. The prediction consists of the multiples of the earlier cell that has the
-// same clusters. If the previous cells in the row, in the column and on the diagonal all have the same
-// clusters as this cell, the prediction is row + column - diagonal. The first k is for cells without a
-// prediction, the second for all others.
+// its row. Code 2 means that it has the same clusters as the previous cell in its column. Then the
+// coefficients follow as multiples of the step. From each multiple, a prediction is subtracted. The
+// prediction is the multiple of the previous cell that has the same clusters. If the previous cells in the
+// row, in the column and on the diagonal all have the same clusters as this cell, the prediction is row +
+// column - diagonal. The first k is for cells without a prediction, the second for all others.
 void write_map_rows(ByteWriter& out, const ViewMap& map, const TensorShape& shape);
 
 // Returns the minimum number of bytes that this many cells can take in a file.

@@ -1,6 +1,7 @@
 // A compressed material as plain data: a bidirectional texture function (BTF) and optionally a view-dependent
-// occlusion texture function (VOTF). N-SVD, CTA and K-CTA use this data structure; a neural BTF uses the data
-// structure in neural.h. The method is by Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation, 2012.
+// occlusion texture function (VOTF). The BTF is compressed by N-SVD, CTA or K-CTA, or it is a neural BTF,
+// which is stored in the data structure of neural.h. The method is by Y.-T. Tsai, Z.-C. Shih: K-Clustered
+// Tensor Approximation, 2012.
 //
 // Directions are unit vectors in tangent space that point away from the surface: x along u, y along v, z >= 0
 // along the normal. Texel (x, y) has its centre at u = (x + 0.5) / I_x, v = (y + 0.5) / I_y; the tile
@@ -40,7 +41,7 @@ struct ViewRows {
 struct ViewMap {
   explicit ViewMap(Memory* memory = default_memory()) : rows(memory) {}
 
-  std::uint32_t side = 0;  // cells; 0 if the view mode is not resampled
+  std::uint32_t side = 0;  // cells along a side; 0 if the view mode is not resampled
   ViewRows rows;           // side x side rows
 };
 
@@ -50,8 +51,8 @@ struct ClusteredTensor {
 
   TensorShape shape;
   Vector<float> cores;  // C x R_l x R_v x R_x x R_y: Z_c, the last index varies fastest
-  // C x I_x x R_x and C x I_y x R_y: X_c and Y_c. At full rank (R_x = I_x or R_y = I_y) an array is empty and
-  // represents the identity, because a square basis can be multiplied into the core.
+  // C x I_x x R_x and C x I_y x R_y: X_c and Y_c. At full rank (R_x = I_x or R_y = I_y), a basis is square
+  // and can be multiplied into the core. The array is then empty and represents the identity.
   Vector<float> x_bases;
   Vector<float> y_bases;
   ViewRows rows;  // one for each view of the material
@@ -60,9 +61,9 @@ struct ClusteredTensor {
 
 enum class VisibilityForm : std::uint32_t {
   none = 0,    // there is no VOTF; the surface is visible everywhere
-  binary = 1,  // 1 where the view meets the meso-structure, 0 where it passes through
+  binary = 1,  // 1 where the view ray hits the meso-structure, 0 where it passes through
   // Signed distance to the boundary of the binary mask, scaled to [-1, 1]. The distance is positive where the
-  // view meets the structure.
+  // view ray hits the structure.
   distance = 2,
 };
 
@@ -77,15 +78,16 @@ constexpr VisibilityMapping paper_mapping(VisibilityForm form) {
   return form == VisibilityForm::binary ? VisibilityMapping{0.5f, 1} : VisibilityMapping{0.05f, 12};
 }
 
-// The relief on which the texels of the BTF lie. Texel (x, y) of a view stores the appearance of the relief's
-// point above that texel. So a detail of the surface is at the same texel in all views. Therefore it stays
-// sharp when views are mixed. relief_place of relief_tables.h finds the point that a view sees through the
-// plane z = 0. The VOTF has no relief; its texels lie on that plane.
+// The relief on which the texels of the BTF lie. For each view, texel (x, y) stores the appearance of the
+// point of the relief above that texel. So a detail of the surface is at the same texel in all views, and
+// stays sharp when views are mixed. relief_place of relief_tables.h finds the point that a view sees through
+// the plane z = 0. The VOTF has no relief; its texels lie on that plane.
 struct Relief {
   explicit Relief(Memory* memory = default_memory()) : levels(memory) {}
 
   float low = 0, high = 0;      // heights above z = 0 of level 0 and level 255, in tiles; both 0: no relief
-  float max_slope = 0;          // limit for the tangent of a view's tilt; larger tangents are clamped
+  float max_slope = 0;          // limit for the tangent of the view's angle to the normal; larger tangents
+                                // are clamped
   std::uint32_t steps = 0;      // number of steps of the march; 0 if the relief is a plane at low = high
   Vector<std::uint8_t> levels;  // I_y x I_x of the BTF, row by row; empty for a plane
 
@@ -109,10 +111,10 @@ struct Material {
   // The mode-light basis, 3 I_l x R_l, which all clusters share. Row 3 l + channel belongs to light l.
   Vector<float> light_basis;
   // The BTF decodes to the radiance towards the viewer, in linear RGB. The light is directional, and causes
-  // an irradiance of 1 on a plane that faces the light. The radiance includes the cosine of the light's
-  // angle: a white Lambertian plane under a perpendicular light has the radiance 1 / pi.
+  // an irradiance of 1 on a plane that faces it. The radiance includes the cosine of the angle between light
+  // and normal: a white Lambertian plane under a perpendicular light has the radiance 1 / pi.
   ClusteredTensor btf;
-  Neural neural;  // replaces light_basis and btf, which are then empty
+  Neural neural;  // if used, replaces light_basis and btf, which are then empty
 
   VisibilityForm visibility = VisibilityForm::none;
   VisibilityMapping mapping;  // ignored if `visibility` is none

@@ -37,8 +37,8 @@ void check_directions(const Vector<Vec3>& directions, const Check& check) {
   check.range("the number of directions", directions.size(), 1, max_directions);
   for (std::size_t i = 0; i < directions.size(); ++i) {
     const Vec3 d = directions[i];
-    // The tolerance of 1e-3 is far above rounding errors. A vector that was never normalised normally differs
-    // by far more.
+    // The tolerance of 1e-3 is far above rounding errors. A vector that was not normalised usually differs by
+    // far more.
     if (!(std::abs(length(d) - 1) <= 1e-3f) || !(d.z >= 0))
       throw Failure(check.code,
                     "direction %zu of the %s is not a unit vector of the upper hemisphere (got %g %g %g)", i,
@@ -159,7 +159,7 @@ void check_neural_shape(const NeuralShape& s, nook_result code) {
 }
 
 void check_block_bytes(const BlockSize& size) {
-  // Uses 64 bits because size_t may have only 32.
+  // 64 bits, because size_t may have only 32.
   std::uint64_t bytes = 0;
   for (std::uint32_t level = 0; level < size.levels; ++level)
     bytes += std::uint64_t(size.layer_bytes(level)) * size.layers;

@@ -12,8 +12,8 @@ void write_numbers(ByteWriter& out, std::uint32_t bits, std::span<const float> v
              : write_multiples(out, values, slab, step_of_largest(values, steps_of_largest));
 }
 
-// The relative squared error of rounding the VOTF's cores. Since these cores are small arrays, it can be far
-// below the error of the compression.
+// The squared error that rounding the VOTF's cores may cause, relative to the squared norm of the cores.
+// These cores are small arrays, so we can afford an error that is far below the error of the compression.
 constexpr float votf_rounding = 0x1p-16f;
 
 void write_rows(ByteWriter& out, std::uint32_t bits, const ViewRows& rows, const TensorShape& shape) {

@@ -1,7 +1,7 @@
-// A material as a small network over features of its texels. It replaces the clustered BTF. The method
-// follows A. Kuznetsov, K. Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP, 2021 (the neural offset) and C.
-// Weinreich, L. de Oliveira, A. Houdard, G. Nader: Real-Time Neural Materials using Block-Compressed
-// Features, 2023.
+// A material as a small neural network. Its input are features that are stored for each texel. It replaces
+// the clustered BTF. The method follows A. Kuznetsov, K. Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP,
+// 2021 (the neural offset) and C. Weinreich, L. de Oliveira, A. Houdard, G. Nader: Real-Time Neural Materials
+// using Block-Compressed Features, 2023.
 //
 // All layers are matrices, features are filtered linearly at a point of the tile, and r(x) = max(x, x / 100):
 //   height   = offset_out r(offset_in (offset features at uv, view, 1)) + offset_level
@@ -24,10 +24,10 @@ namespace nook::material {
 
 struct NeuralShape {
   std::uint32_t width = 0, height = 0;                   // texels
-  std::uint32_t channels = 16;                           // of the features
-  std::uint32_t units = 32;                              // of each hidden layer of the network
-  std::uint32_t layers = 3;                              // hidden ones
-  std::uint32_t offset_channels = 8, offset_units = 16;  // for the offset
+  std::uint32_t channels = 16;                           // number of channels of the features
+  std::uint32_t units = 32;                              // units of each hidden layer
+  std::uint32_t layers = 3;                              // number of hidden layers
+  std::uint32_t offset_channels = 8, offset_units = 16;  // channels and units of the neural offset
 
   std::size_t texels() const { return std::size_t(width) * height; }
   std::size_t blocks() const { return std::size_t(width + 3) / 4 * ((height + 3) / 4); }
@@ -38,7 +38,7 @@ struct NeuralShape {
 inline constexpr std::uint32_t neural_view_inputs = 3, neural_light_inputs = 6;
 
 // The offset of each layer in the array of weights. A matrix is outputs x inputs, and the output index varies
-// fastest. The bias follows the matrix, as the weights of a constant input 1.
+// fastest. The bias follows the matrix. It is the row of weights for a constant input of 1.
 struct NeuralLayout {
   explicit NeuralLayout(const NeuralShape& shape);
   std::size_t offset_in, offset_bias, offset_out, offset_level;  // features and view -> units -> height
@@ -73,14 +73,15 @@ struct Neural {
   explicit Neural(Memory* memory = default_memory()) : blocks(memory), weights(memory) {}
 
   NeuralShape shape;
-  // Channel x block row x block column. The channels of the features come before the channels of the offset.
+  // Channel x block row x block column. The channels of the features come first, then the channels of the
+  // offset features.
   Vector<std::uint8_t> blocks;
   Vector<std::uint16_t> weights;  // half floats; empty: the material is a clustered tensor
 
   bool is_used() const { return !weights.empty(); }
 };
 
-// These functions return the bytes of the blocks and the bytes of the weights.
+// These functions return the size of the blocks and the size of the weights in bytes.
 inline std::size_t neural_block_bytes_of(const NeuralShape& s) {
   return neural_block_bytes * s.blocks() * (s.channels + s.offset_channels);
 }
@@ -90,9 +91,9 @@ inline std::size_t neural_bytes(const NeuralShape& s) {
 
 // Functions that the training and the decoder share.
 
-// The place where features are read is shifted by view.xy / view.z times the height. These constants limit
-// view.z and the height. Without the limits, grazing views would read features arbitrarily far away, and a
-// faulty network could return heights of a tile or more.
+// The place where features are read is shifted by view.xy / view.z times the height. These constants are the
+// limits of view.z and of the height. Without the limits, grazing views would read features arbitrarily far
+// away, and a faulty network could return heights of a tile or more.
 inline constexpr float neural_least_view_z = 0.01f;
 inline float neural_slope(Vec3 view) {
   return 1 / std::max(view.z, neural_least_view_z);

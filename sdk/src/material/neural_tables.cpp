@@ -61,7 +61,7 @@ float lowest_z(std::span<const Vec3> directions) {
   return lowest;
 }
 
-// If a direction is lower than the lowest sampled direction, raises it to the same height.
+// Raises a direction that is lower than the lowest sampled direction to the height of that direction.
 Vec3 raised(Vec3 d, float lowest) {
   if (d.z >= lowest) return d;
   const float scale = std::sqrt(1 - lowest * lowest) / std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f);
@@ -111,7 +111,7 @@ float height_at(const NeuralTables& tables, const NeuralLayout& at, const ImageP
 ImagePlace seen_place(const NeuralTables& tables, const NeuralLayout& at, const ImagePlace& place,
                       Vec3 view) {
   const float wished = neural_shift(height_at(tables, at, place, view), view);
-  // If the caller's view is not a unit vector, it may be so long that the shifted place is not finite.
+  // The caller's view may not be a unit vector. If it is very long, the shifted place may not be finite.
   const bool is_finite = std::isfinite(view.x * wished) && std::isfinite(view.y * wished);
   const float shift = is_finite ? wished : 0;
   return {place.u + view.x * shift, place.v + view.y * shift, place.level};

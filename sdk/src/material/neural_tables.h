@@ -17,18 +17,18 @@ struct NeuralTables {
   explicit NeuralTables(Memory* memory = default_memory()) : features(memory), weights(memory) {}
 
   NeuralShape shape;
-  // Layers of four channels each: first the features, then the offset's features. Values are integers from
-  // -127 to 127, which are 127 times the features. A texel of a smaller mipmap level is the mean over its
-  // area.
+  // Layers of four channels each: first the features, then the offset's features. Values are 127 times the
+  // features, as integers from -127 to 127. A texel of a smaller mipmap level is the mean over its area.
   ImageSize size;
   Vector<std::int8_t> features;
   Vector<float> weights;  // empty: the material is a clustered tensor
-  // Views and lights that are lower than all sampled ones are raised to the lowest sampled one.
+  // Lower limits of z. A view or light that is lower than all sampled ones is raised to the lowest sampled
+  // one.
   float lowest_view_z = 1, lowest_light_z = 1;
 
   bool is_used() const { return !weights.empty(); }
-  // The number of decoded values of a pixel: the sums of the first layer without the light, then the view and
-  // a 0.
+  // The number of decoded values of a pixel. These values are the sums of the first layer without the light,
+  // then the view, and a 0.
   std::uint32_t decoded_count() const { return shape.units + 4; }
 };
 

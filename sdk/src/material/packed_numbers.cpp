@@ -16,7 +16,7 @@ namespace {
 constexpr int top_exponent = 14;
 constexpr int max_exponent = 100;
 
-// Keeps four binary digits.
+// Rounds down to four binary digits.
 float rounded_down(float step) {
   const float coarse = bit_cast<float>(bit_cast<std::uint32_t>(step) & 0xfff00000u);
   return std::isnormal(coarse) ? coarse : 1.0f;

@@ -24,7 +24,7 @@ void read_packed(ByteReader& in, std::span<float> values);
 // be shorter). A slab consists of k and the multiples in the Golomb-Rice code of map_rows.h, as packed bits.
 // Each slab has its own k, so the code adapts to the slab. The end is aligned to a byte. All values must be
 // finite, and the step must be positive. A value is never rounded beyond the largest magnitude of the array,
-// because that magnitude may already be at a limit of the format.
+// because that magnitude may already be at the limit of valid values.
 void write_multiples(ByteWriter& out, std::span<const float> values, std::size_t slab, float step);
 // Returns the minimum number of bytes for `count` values, at one bit each.
 constexpr std::size_t min_multiples_bytes(std::size_t count) {
@@ -37,12 +37,12 @@ float read_multiples(ByteReader& in, std::span<float> values, std::size_t slab);
 // Reads the f32 step. Throws Failure(NOOK_ERROR_BAD_FILE) if it is not positive and finite.
 float read_step(ByteReader& in);
 
-// multiple_of returns the multiple of `step` that is nearest to a value, clamped to `limit`. The limit of an
-// array is the number of whole steps in its largest magnitude.
+// multiple_of returns the integer m for which m * step is nearest to the value, clamped to [-limit, limit].
+// For an array, the limit is the number of whole steps in its largest magnitude.
 std::int32_t multiple_of(float value, float step, std::int32_t limit);
 std::int32_t largest_multiple(std::span<const float> values, float step);
 
-// In arrays other than cores, the step is the largest magnitude divided by this number. These arrays are
+// For all arrays except cores, the step is the largest magnitude divided by this number. These arrays are
 // small, so a fine step costs little, and their rounding error is small compared with the error of the cores.
 inline constexpr float steps_of_largest = 511;
 

@@ -70,7 +70,7 @@ Four blended(const TensorTables& tables, std::size_t layer, const CellBlend& ble
   return sum;
 }
 
-// Moves places from the plane to the points of the relief that the view sees there.
+// Replaces places on the plane by the points of the relief that the view sees through them.
 Fetches on_relief(const MaterialTables& tables, Fetches at, Vec3 view) {
   for (std::uint32_t i = 0; i < at.count; ++i) {
     ImagePlace& place = at.place[i];
@@ -216,16 +216,16 @@ Vec3 mean_reflectance(const MaterialTables& tables) {
   using Numbers = std::array<double, 3 * max_directions + 3>;
   const std::uint32_t modes = tables.btf.light_modes;
   std::array<float, 3 * max_directions + 3> values;
-  // The light basis already includes the cosine, and the directions are cosine-weighted. So its integral is
-  // pi times the mean of basis / cosine.
+  // The light basis includes the cosine, and the directions are distributed in proportion to the cosine. So
+  // the integral of the basis is pi times the mean of basis / cosine.
   Numbers lit{};
   const std::uint32_t lights = over_disc(64, [&](Vec3 light) {
     light_basis_at(tables, light, std::span(values).first(3 * modes));
     for (std::uint32_t i = 0; i < 3 * modes; ++i) lit[i] += double(values[i] / light.z);
   });
   Numbers seen{};
-  // The level is clamped to the last level, which has one texel along the shorter side and few along the
-  // other.
+  // The level is clamped to the last level, which has one texel along the shorter side and a few along the
+  // longer side.
   const std::uint32_t across = 4;
   const std::uint32_t views = over_disc(16, [&](Vec3 view) {
     for (std::uint32_t i = 0; i < across * across; ++i) {
@@ -238,8 +238,8 @@ Vec3 mean_reflectance(const MaterialTables& tables) {
       for (std::uint32_t a = 0; a < modes; ++a) seen[a] += double(values[a]);
     }
   });
-  // The radiosity is pi times the mean radiance over cosine-weighted views, and the irradiance is pi. So the
-  // factors cancel.
+  // The radiosity is pi times the mean radiance over cosine-weighted views. The irradiance is also pi, so the
+  // quotient is the mean radiance.
   float share[3];
   for (std::uint32_t c = 0; c < 3; ++c) {
     double sum = 0;

@@ -12,14 +12,14 @@ namespace nook::material {
 
 struct Sample {
   float u = 0, v = 0;  // the tile repeats
-  // Mipmap level: 0 if a texel of the material is as large as a pixel, 1 if a texel is half as large.
+  // Mipmap level: 0 if a texel of the material is as large as a pixel, 1 if it is half as large as a pixel.
   float level = 0;
   Vec3 view;  // unit vectors in tangent space, away from the surface
   Vec3 light;
 };
 
-// A pixel of a picture. Its value is the mean over its footprint, which is read at up to `fetches` places (1
-// to max_fetches) along the longer axis; see footprint.h.
+// A pixel of a picture. Its value is the mean over its footprint. The material is read at up to `fetches`
+// places (1 to max_fetches) along the longer axis of the footprint; see footprint.h.
 struct Pixel {
   PixelSides sides;
   Vec3 view, light;  // as in Sample
@@ -35,8 +35,9 @@ struct Radiance {
 // a neural material.
 Radiance evaluate_btf(const MaterialTables& tables, const Sample& sample);
 Radiance evaluate_btf_pixel(const MaterialTables& tables, const Pixel& pixel);
-// Computes the light modes for the sample's point and view; sample.light is not read. `modes` has light_modes
-// values. Not for neural materials, which have no light modes; see refuse_neural in material_check.h.
+// Computes the light modes for the point and view of the sample. sample.light is not used. `modes` has
+// light_modes values. Not for neural materials, which have no light modes; see refuse_neural in
+// material_check.h.
 void decode_modes(const MaterialTables& tables, const Sample& sample, std::span<float> modes);
 void decode_pixel_modes(const MaterialTables& tables, const Pixel& pixel, std::span<float> modes);
 // Computes the light basis for a light direction: 3 x light_modes values, channel by channel. All values are

@@ -18,7 +18,7 @@ float mix(float a, float b, float t) {
   return a + (b - a) * t;
 }
 
-// Returns the height at a place, from 0 at the lowest plane to 1 at the highest.
+// Returns the height at a place. 0 is the lowest plane, 1 the highest.
 float share_on_level(const ReliefTables& relief, TexturePlace at, std::uint32_t level) {
   std::size_t first = 0;
   for (std::uint32_t l = 0; l < level; ++l)

@@ -15,7 +15,7 @@ struct ReliefTables {
 
   float low = 0, high = 0, max_slope = 0;  // as in Relief
   std::uint32_t steps = 0;
-  std::uint32_t width = 0, height = 0, levels = 0;  // of the heights; 0 for a plane
+  std::uint32_t width = 0, height = 0, levels = 0;  // the size of `heights`; 0 for a plane
   // Half floats, from 0 at `low` to 1 at `high`. Mipmap levels are stored one after another. A texel is the
   // mean height over its area.
   Vector<std::uint16_t> heights;
@@ -31,8 +31,8 @@ struct TexturePlace {
   float u = 0, v = 0;
 };
 
-// Returns the offset by which a point appears shifted in a view, per unit of height. The length is the
-// tangent of the view's tilt, at most max_slope.
+// A point above the plane z = 0 appears shifted in a view. Returns the shift per unit of height. Its length
+// is the tangent of the view's angle to the normal, at most max_slope.
 TexturePlace relief_slope(const ReliefTables& relief, Vec3 view);
 
 // Marches along the view's ray through (u, v, 0), from the highest plane to the lowest in equal steps. The

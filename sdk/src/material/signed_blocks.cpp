@@ -40,9 +40,9 @@ float error_of(const float (&numbers)[16], const Levels& levels) {
   return sum;
 }
 
-// Tries steps that span from the full range of the values down to three quarters of it. For each step, it
-// tries lowest levels that are a quarter of a step apart. Finally, it tries the neighbours of the best
-// combination.
+// Tries several steps. The eight levels of the largest step span the full range of the values, and the levels
+// of the smallest step span three quarters of it. For each step, it tries lowest levels that are a quarter of
+// a step apart. Finally, it tries the neighbours of the best combination.
 Levels best_levels(const float (&numbers)[16]) {
   const auto [low, high] = std::minmax_element(std::begin(numbers), std::end(numbers));
   const int most = 2 * signed_block_steps / 7;
@@ -115,9 +115,9 @@ float error_of(const float (&numbers)[16], const EacHead& head) {
   return sum;
 }
 
-// Tries all modifier tables, each with two multipliers: the one that spans the range of the values, and the
-// next smaller one. For each, it tries bases around the one that aligns the centre of the table with the
-// centre of the values.
+// Tries all modifier tables, each with two multipliers: the multiplier for which the table spans the range of
+// the values, and the next smaller one. For each, tries several bases around the base that aligns the centre
+// of the table with the centre of the values.
 EacHead best_head(const float (&numbers)[16]) {
   const auto [low, high] = std::minmax_element(std::begin(numbers), std::end(numbers));
   EacHead best;

@@ -21,7 +21,8 @@ struct RgtcBlock {
 void write_rgtc(const RgtcBlock& block, std::uint8_t* bytes);
 RgtcBlock read_rgtc(const std::uint8_t* bytes);
 
-// Convert between a code and its position between the ends, from 0 at the upper end to 7 at the lower end.
+// Both functions convert between a code and its position between the ends. Position 0 is the upper end, 7 the
+// lower end.
 constexpr int sevenths_of(std::uint32_t code) {
   return code == 0 ? 0 : code == 1 ? 7 : int(code) - 1;
 }
@@ -32,8 +33,8 @@ constexpr std::uint8_t code_of(int sevenths) {
 enum class BlockForm : std::uint32_t { none = 0, rgtc = 1, eac = 2 };
 
 // Writes the eight bytes of a block for values in [-1, 1]. All eight levels of an RGTC block are multiples of
-// 1 / 127, so that decoders that round to bytes also return the specified values. Decoders that also round
-// the weights to bytes, such as llvmpipe, return a value that differs by 1 / 127 in some texels.
+// 1 / 127, so that decoders that round values to bytes also return them exactly. Decoders that also round the
+// interpolation weights to bytes, such as llvmpipe, return a value that differs by 1 / 127 in some texels.
 void encode_block(BlockForm form, const float (&numbers)[16], std::uint8_t* bytes);
 
 // Decodes one texel of a block exactly as OpenGL specifies.

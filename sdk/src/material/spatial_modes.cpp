@@ -26,7 +26,8 @@ double largest_norm(const Vector<float>& rows, std::size_t columns) {
   return std::sqrt(largest);
 }
 
-// Returns the fraction of a smaller-level texel that a texel of the larger level covers along one axis.
+// Returns, along one axis, which fraction of a texel of the smaller level is covered by a texel of the larger
+// level.
 double share(std::uint32_t texel, std::uint32_t smaller_texel, std::uint32_t size,
              std::uint32_t smaller_size) {
   const double step = double(size) / smaller_size, begin = smaller_texel * step;

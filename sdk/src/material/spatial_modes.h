@@ -1,7 +1,7 @@
 // The expanded spatial modes of the core tensors. With a < R_l and b < R_v,
 //   S_c[a, b](x, y) = sum_{p, q} Z_c[a, b, p, q] X_c[x, p] Y_c[y, q]
-// are images that texture units can filter. Decoding is linear in these images, so decoding the filtered
-// texels gives the mean of the decoded texels.
+// are images that texture units can filter. Decoding is linear in these images. So if filtered texels are
+// decoded, the result is the mean of the decoded texels.
 #pragma once
 
 #include <cstdint>

@@ -73,7 +73,8 @@ void for_each_texel(const TensorTables& tables, std::uint32_t cluster, std::uint
                  });
 }
 
-// Encodes an image into every other block, beginning at `to`.
+// Encodes an image. Writes every second block, beginning at `to`, because a layer of two channels interleaves
+// the blocks of its channels.
 template <class Scaled>
 void encode_image(BlockForm form, std::uint32_t width, std::uint32_t height, std::span<const float> image,
                   Scaled&& scaled, std::uint8_t* to) {
@@ -87,7 +88,8 @@ void encode_image(BlockForm form, std::uint32_t width, std::uint32_t height, std
     }
 }
 
-// Encodes all levels of a mode into blocks. `a` is the index among the light modes in blocks.
+// Encodes all levels of a mode into blocks. `a` is the index of the light mode, counted from the first light
+// mode that is stored in blocks.
 template <class Scaled>
 void encode_mode(TensorTables& tables, std::uint32_t cluster, std::uint32_t a, std::uint32_t b,
                  std::span<float> image, std::span<float> other, Scaled&& scaled) {
@@ -139,12 +141,12 @@ void tighten(std::span<const float> largest, const TensorShape& s, ModeScales& s
       }
 }
 
-// Returns scales for which p_c[b] r[a] is close to the largest magnitude of each mode S_c[a, b], and not
+// Returns scales such that for each mode S_c[a, b], p_c[b] r[a] is close to its largest magnitude, and not
 // below it. r starts as the mean of these magnitudes. `light` holds the largest magnitude of each column of
-// the light basis. If all columns times r had the same magnitude, rounding the light map would cost the
-// least. Since this rounding matters as much as the rounding of the modes, r is then moved half of the way
-// there, on a logarithmic scale. The function uses only sums, products and square roots, which all machines
-// round in the same way.
+// the light basis. Rounding the light map causes the smallest error if all columns times r have the same
+// magnitude. This error matters as much as the rounding error of the modes. So r is then moved half of the
+// way to such values, on a logarithmic scale. The function uses only sums, products and square roots, which
+// all machines round in the same way.
 ModeScales mode_scales(const TensorShape& s, std::span<const float> largest, std::span<const float> light,
                        Memory* memory) {
   ModeScales scales(memory);
@@ -214,13 +216,13 @@ void pack_cells(const ViewCells& cells, std::uint32_t rank, Scale&& scale, Tenso
   }
 }
 
-// Returns true if modes have scales, which is the case for integers and blocks.
+// Returns true if modes are divided by scales, which is done for integers and blocks.
 bool has_scales(const Material& material, const ModeForm& form) {
   return material.bits == 8 || form.blocks != BlockForm::none;
 }
 
-// If there is a block format, light modes from `whole` on are stored in blocks. If the blocks would take too
-// many bytes, throws Failure before it allocates.
+// Sets the sizes of the tables. If there is a block format, the light modes from index `whole` on are stored
+// in blocks. If the blocks would take too many bytes, throws Failure before it allocates.
 void set_sizes(const TensorShape& s, std::uint32_t light_modes, BlockForm form, std::uint32_t whole,
                TensorTables& tables) {
   tables.width = s.width;
@@ -235,7 +237,7 @@ void set_sizes(const TensorShape& s, std::uint32_t light_modes, BlockForm form, 
   check_block_bytes(tables.block_size());
 }
 
-// Modes that only pad the ranks to multiples of 4 are zero.
+// Allocates the blocks. Modes that only pad the ranks to multiples of 4 are zero.
 void make_blocks(TensorTables& tables) {
   if (tables.block_form == BlockForm::none) return;
   tables.blocks.resize(tables.block_size().level_offset(tables.levels));
@@ -261,7 +263,7 @@ std::int8_t as_integer(float value) {
   return std::int8_t(std::nearbyint(std::clamp(value, -1.0f, 1.0f) * 127));
 }
 
-// Makes the integers and blocks of modes that have scales.
+// Converts the modes that have scales to integers and blocks.
 void make_scaled_spatial(const ClusteredTensor& tensor, const ModeScales& scales, const Parallel& parallel,
                          TensorTables& tables, Memory* memory) {
   tables.bits = 8;
@@ -315,7 +317,7 @@ void add_floats(Hash64& hash, std::span<const float> values) {
   }
 }
 
-// The hash includes the scales of the light map, because data that were baked with the map depend on them.
+// The hash includes the scales of the light map, because other bakes that use the map depend on them.
 std::uint64_t hash_of_light(const Material& material, std::span<const float> columns, float scale) {
   Hash64 hash;
   add_floats(hash, {&scale, 1});
@@ -357,8 +359,9 @@ void round_light_map(MaterialTables& tables, float unit, Memory* memory) {
   tables.light = Vector<float>(memory);
 }
 
-// Adjusts the texels around each light until linear filtering at the light returns its row of the basis. A
-// correction is distributed over the four texels in proportion to their filter weights (S. Kaczmarz, 1937).
+// Adjusts the texels around each light until linear filtering at the light's direction returns the light's
+// row of the basis. A correction is distributed over the four texels in proportion to their filter weights
+// (S. Kaczmarz, 1937).
 template <class Scale>
 void fit_light_map(const Material& material, Scale&& scale, MaterialTables& tables) {
   constexpr int sweeps = 8;
@@ -390,7 +393,8 @@ std::uint32_t small_light_side(std::size_t lights) {
 }
 
 // Makes the light map of integers, and returns the value that 127 represents. This value is computed from the
-// map of default size, because baked data depend on it. Fitted texels with larger values are clamped.
+// map of default size, because other bakes depend on it, and it must not change with the size. Fitted texels
+// with larger values are clamped.
 template <class Scale>
 float make_light_map_8(const Material& material, Scale&& scale, bool is_small, MaterialTables& tables,
                        Memory* memory) {
@@ -440,8 +444,8 @@ void make_votf(const Material& material, std::uint32_t map_side, const ModeForm&
   const ViewCells cells = view_cells(votf, material.views, map_side, memory);
   tables.votf_hash = hash_of_votf(material);
   if (!has_scales(material, form)) {
-    // The coefficients are multiplied by the inverse of this power of two, so it is used only if a half float
-    // would overflow.
+    // The coefficients are multiplied by the inverse of this power of two, which costs them precision. So it
+    // is used only if a half float would overflow.
     const int exponent = std::min(spatial_exponent(votf, memory), 0);
     make_spatial(votf, std::ldexp(1.0f, exponent), parallel, tables.votf, memory);
     pack_cells(

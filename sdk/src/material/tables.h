@@ -13,16 +13,16 @@
 
 namespace nook::material {
 
-// Returns the number of texels for `rank` values, four in each. In spatial modes and coefficients, a texel
-// holds four consecutive indices of the view mode; in the light map, four consecutive indices of the light
-// mode.
+// Returns the number of texels for `rank` values, with four values in each texel. In spatial modes and
+// coefficients, the four values belong to consecutive indices of the view mode. In the light map, they belong
+// to consecutive indices of the light mode.
 constexpr std::uint32_t vec4_count(std::uint32_t rank) {
   return (rank + 3) / 4;
 }
 
 // Chooses a block format for the spatial modes. If blocks are used, the modes outside blocks are stored as
-// integers instead of half floats. The light map then has fewer cells, and the values of these cells are
-// fitted to the lights.
+// integers instead of half floats. The light map then has fewer cells, and its values are fitted so that it
+// is exact at the sampled lights.
 struct ModeForm {
   BlockForm blocks = BlockForm::none;
   // The number of light modes of a BTF that are not stored in blocks. These are the first light modes,
@@ -41,10 +41,11 @@ struct TensorTables {
   std::uint32_t light_modes = 0;      // R_l of a BTF, rounded up to a multiple of 4; 1 for a VOTF
   std::uint32_t view_vec4_count = 0;  // R_v / 4, rounded up
   std::uint32_t clusters = 0;
-  std::uint32_t side = 0;   // cells of the view map
+  std::uint32_t side = 0;   // cells along a side of the view map
   std::uint32_t terms = 0;  // terms of each cell; see ViewCells
-  bool blended = false;     // cells blend with their neighbours; see ViewCells
-  std::uint32_t bits = 16;  // of spatial modes that are not in blocks
+  bool blended = false;     // true if cells blend with their neighbours; see ViewCells
+  std::uint32_t bits = 16;  // format of the spatial modes that are not in blocks: 16 for half floats, 8 for
+                            // integers
   BlockForm block_form = BlockForm::none;
   std::uint32_t packed_modes = 0;  // the number of light modes in blocks; these are the last ones
 
@@ -55,7 +56,7 @@ struct TensorTables {
   // are multiplied by p_c[b], and the light map by r[a].
   Vector<std::uint16_t> spatial;
   Vector<std::int8_t> spatial_8;
-  // Modes in blocks, which are also divided by their scales. Light mode whole_modes() + a begins at layer 2
+  // The modes in blocks. They are divided by the same scales. Light mode whole_modes() + a begins at layer 2
   // ((c packed_modes + a) view_vec4_count + b / 4).
   Vector<std::uint8_t> blocks;
   // terms x view_vec4_count layers, each with side x side x 4 values.
@@ -89,20 +90,21 @@ struct MaterialTables {
 
   std::uint32_t light_side = 64;
   // The light basis over the hemisphere, interpolated linearly between the lights. Between the lowest lights
-  // and the horizon, the basis is scaled by the ratio of cosines, down to 0 at the horizon. The table has
-  // layers x side x side x 4 floats; light mode a of a channel is in layer channel light_modes / 4 + a / 4.
-  // Values are divided by the power of two of the BTF's spatial modes. If modes are in blocks, the table has
-  // fewer texels. The texels around each light are then adjusted so that filtering at a light returns exactly
-  // its row of the basis. There are two exceptions: rounding, and values above the maximum of the default
-  // table, which are clamped.
+  // and the horizon, the basis fades to 0; see low_light_share. The table has layers x side x side x 4
+  // floats; light mode a of a channel is in layer channel light_modes / 4 + a / 4. Values are divided by the
+  // power of two of the BTF's spatial modes. If modes are in blocks, the table has fewer texels. The texels
+  // around each light are then adjusted so that filtering at the direction of a light returns the light's row
+  // of the basis. The result is exact except for rounding, and except for values above the maximum of the
+  // default table, which are clamped.
   Vector<float> light;
-  // With 8 bits, light_8 replaces `light`. The light map's columns are multiplied by r[a] and divided by the
+  // With 8 bits, light_8 replaces `light`. The light map's columns are multiplied by r[a], divided by the
   // largest value, and stored as integers from -127 to 127. The coefficients are multiplied by the largest
   // value.
   Vector<std::int8_t> light_8;
 
-  // XXH64 of the data from which the light basis and the VOTF were made. Baked data store these hashes, to
-  // detect that they belong to another material. votf_hash is 0 if there is no VOTF.
+  // XXH64 of the data from which the light basis and the VOTF were made. Other baked data, such as radiance
+  // transfer, store these hashes, so that a wrong material can be detected. votf_hash is 0 if there is no
+  // VOTF.
   std::uint64_t light_hash = 0, votf_hash = 0;
 };
 

@@ -18,8 +18,8 @@ Cell cell_at(ViewCells& cells, std::size_t number, std::uint32_t rank) {
           &cells.rows.coefficients[number * cells.terms * rank]};
 }
 
-// Adds the terms of a view, times `weight`, to a cell. A term is added to the cell's term with the same
-// cluster, or to the next unused term.
+// Adds the terms of a view, times `weight`, to a cell. If the cell already has a term with the same cluster,
+// the term is added to it, otherwise to the next unused term.
 void add_terms(const ClusteredTensor& tensor, std::size_t view, float weight, Cell cell,
                std::uint32_t& used) {
   const std::uint32_t rank = tensor.shape.rank_view, mixture = tensor.shape.mixture;
@@ -49,9 +49,9 @@ void mix_three(const ClusteredTensor& tensor, std::span<const Vec3> views, ViewC
 }
 
 // Finds the neighbour with which one half of a cell blends. `towards` is -1 or 1, and selects the half. The
-// neighbour must have the same terms as the cell. Returns 1 plus the step to the neighbour along the axis, or
-// 1 if there is no such neighbour. `at` is the cell's index along the axis. `distance` is the offset in the
-// arrays from a cell to the next one along the axis.
+// neighbour must mix the same clusters as the cell. Returns step + 1, where the step is -1 or 1 along the
+// axis, or 0 if there is no such neighbour. `at` is the cell's index along the axis. `distance` is the offset
+// in the arrays from a cell to the next one along the axis.
 std::uint32_t step_code(const ViewCells& cells, std::size_t number, std::int64_t at, std::int64_t distance,
                         int towards) {
   const std::uint16_t* const own = &cells.rows.membership[number * cells.terms];

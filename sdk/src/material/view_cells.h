@@ -1,9 +1,9 @@
-// The view mode in the form that the decoder reads. A parabolic map stores, for each cell, clusters and
-// coefficients, and the neighbours with which the cell blends. If the file contains a resampled map, its
-// cells are copied. Coefficients are interpolated linearly between the centres of cells that mix the same
-// clusters. So even a small map has no visible steps between cells as the view moves. If the file has no map,
-// the rows of the three nearest views are mixed linearly into one row for each cell. The row has up to 3 K
-// terms, with the clusters of all three views. So N-SVD, CTA and K-CTA are decoded in the same way.
+// The view mode in the form that the decoder reads. It is a parabolic map, which stores for each cell its
+// clusters, its coefficients, and the neighbours with which the cell blends. If the file contains a resampled
+// map, its cells are copied. Coefficients are interpolated linearly between the centres of cells that mix the
+// same clusters. So even a small map shows no visible steps between cells when the view moves. If the file
+// has no map, the rows of the three nearest views are mixed linearly into one row for each cell. The row has
+// up to 3 K terms, with the clusters of all three views. So N-SVD, CTA and K-CTA are decoded in the same way.
 #pragma once
 
 #include <cstdint>
@@ -19,10 +19,10 @@ struct ViewCells {
   explicit ViewCells(Memory* memory = default_memory()) : rows(memory), neighbours(memory) {}
 
   std::uint32_t side = 0;
-  std::uint32_t terms = 1;  // clusters that a cell mixes, instead of K
+  std::uint32_t terms = 1;  // the number of clusters that a cell mixes; replaces K
   ViewRows rows;            // side x side; an unused term has coefficients 0
   // The neighbours of each cell; see neighbour_step. Cells blend only if the map comes from the file;
-  // otherwise this array is empty. The terms of a cell in such a map are sorted by cluster.
+  // otherwise this array is empty. In a map from the file, the terms of a cell are sorted by cluster.
   Vector<std::uint8_t> neighbours;
 };
 
@@ -38,7 +38,7 @@ ViewCells view_cells(const ClusteredTensor& tensor, std::span<const Vec3> views,
 // are the halves at low y and high y.
 enum class CellHalf : std::uint32_t { left = 0, right = 1, lower = 2, upper = 3 };
 
-// Returns the step (-1, 0 or 1) to the cell with which a point in that half of a cell blends. If the cell on
+// Returns the step (-1, 0 or 1) to the cell with which a point in this half of a cell blends. If the cell on
 // the same side mixes the same clusters, the point blends with it. If instead the cell on the opposite side
 // mixes the same clusters, the coefficients are extrapolated from that cell. If neither cell mixes the same
 // clusters, the step is 0, and the point does not blend. `neighbours` stores step + 1 in two bits for each
