@@ -6,7 +6,7 @@
 namespace nook::nnao {
 namespace {
 
-// Averages the slopes of both sides. The weight of a slope is the inverse of its square.
+// Averages the slopes on both sides of a pixel. The weight of a slope is the inverse of its square.
 float axis_slope(const Neighbours& neighbours, std::size_t first) {
   const float a = neighbours.slope[first], b = neighbours.slope[first + 1];
   const float steep_a = a * a + 1e-12f, steep_b = b * b + 1e-12f;
@@ -37,7 +37,7 @@ Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, flo
   for (std::size_t i = 0; i < 4; ++i)
     found.slope[i] = (depths[i] - depth) / (orthographic ? 1 : depths[i]) * (i % 2 == 0 ? -1.0f : 1.0f);
   const std::array<bool, 4> inside{x > 0, x + 1 < view.width, y > 0, y + 1 < view.height};
-  // Beyond the border of the screen the surface is assumed to continue.
+  // The surface is assumed to continue beyond the border of the screen.
   for (std::size_t i = 0; i < 4; ++i)
     if (!inside[i]) found.slope[i] = found.slope[i ^ 1];
   for (std::size_t i = 0; i < 4; ++i) {
@@ -50,7 +50,7 @@ Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, flo
 }
 
 Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours) {
-  // With the depth d(x, y) and the ray (u, v) of a pixel, the plane's normal in a perspective is
+  // With the depth d(x, y) and the ray (u, v) of a pixel, the plane's normal in a perspective view is
   //   (du d / d, dv d / d, 1 + u du d / d + v dv d / d).
   const ScreenRays& rays = view.rays;
   const float along_u = axis_slope(neighbours, 0) / rays.x_scale,

@@ -21,16 +21,16 @@ struct Neighbours {
   std::array<float, 4> connected{};
 };
 
-// There is an edge between a pixel and its neighbour if two differences both exceed about `tolerance` metres.
-// One is the difference between the two depths. The other is the difference between the pixel's depth and the
-// straight line through the neighbours on both sides.
+// There is an edge between a pixel and its neighbour if two differences in depth both exceed about
+// `tolerance` metres. One is the difference between the two depths. The other is the difference between the
+// pixel's depth and the depth of the straight line through the neighbours on both sides.
 Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, float tolerance);
 
 // Returns the normal derived from the slopes. On each axis, the flatter of the two slopes gets more weight,
-// because across a silhouette depth changes more steeply than on the pixel's own surface.
+// because depth changes more steeply across a silhouette than on the pixel's own surface.
 Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours);
 
-// Packs the four values of `connected` into two bits each, which can represent 0, 1/3, 2/3 and 1.
+// Packs the four values of `connected` into two bits each. Two bits can represent 0, 1/3, 2/3 and 1.
 std::uint8_t packed_edges(const std::array<float, 4>& connected);
 
 // The pass filters along x first and then along y.
@@ -60,8 +60,8 @@ struct FilterLine {
 };
 
 // Returns the weights of the five pixels in the filtered value. The middle pixel has the weight 1. If
-// range_sharpness is 0, the weights are 1, 2, 3, 2, 1 divided by 3, times the connections between each pixel
-// and the middle one.
+// range_sharpness is 0, the weights are 1, 2, 3, 2, 1 divided by 3, each times the product of the connections
+// between the pixel and the middle one.
 std::array<float, 5> filter_weights(const FilterLine& line, FilterAxis axis, float range_sharpness);
 
 // Filters AO along an axis at one pixel. Pixels beyond the border have the weight 0.

@@ -11,23 +11,23 @@ enum class RadiusKind { metres = 0, screen = 1, scene = 2 };
 
 struct GivenRadius {
   RadiusKind kind = RadiusKind::metres;
-  float radius = 0;         // metres, or a share
+  float radius = 0;         // metres, or a fraction, depending on the kind
   float scene_size = 0;     // metres
   float max_radius_px = 0;  // 0: the default
   float min_radius_px = 0;  // 0: none
 };
 
 struct FrameRadius {
-  // The radius in metres. If the host gives the radius in pixels, it covers the same number of pixels at
-  // every distance, and only max_px limits it.
+  // The radius in metres. If the host sets the radius as a fraction of the screen, it covers the same number
+  // of pixels at every distance. Then this is endless_radius, and max_px is the radius.
   float metres = 0;
   float max_px = 0;  // at least 1
   bool in_pixels = false;
   float min_px = 0;  // at most max_px; 0: none
 };
 
-// A radius that is larger than every radius in metres that a host can set. Its product with pixels per metre
-// may be infinite.
+// Larger than every radius in metres that a host can set. If it is converted to pixels, the result may be
+// infinite.
 inline constexpr float endless_radius = 1e30f;
 
 inline FrameRadius frame_radius(const GivenRadius& given, float height_px) {
@@ -39,7 +39,8 @@ inline FrameRadius frame_radius(const GivenRadius& given, float height_px) {
   return {metres, max_px, false, std::min(given.min_radius_px, max_px)};
 }
 
-// At a depth, the darkness (1 - AO) is multiplied by per_metre * depth + offset, clamped to [0, 1].
+// The darkness (1 - AO) is multiplied by a factor that depends on the depth: per_metre * depth + offset,
+// clamped to [0, 1].
 struct DistanceFade {
   float per_metre = 0, offset = 1;
   float share(float depth) const { return std::clamp(per_metre * depth + offset, 0.0f, 1.0f); }

@@ -1,4 +1,5 @@
-// Checks the ranges of the AO settings. A host's frame and a recording have the same ranges.
+// Checks the ranges of the AO settings. The same ranges are valid for the settings of a host's frame and of a
+// recording.
 #pragma once
 
 #include <cstddef>
@@ -7,7 +8,7 @@
 
 namespace nook::nnao {
 
-// Messages print names such as "desc.fade_end" from this offset on. Messages about a descriptor print the
+// The offset from which messages print a name such as "desc.fade_end". Messages about a descriptor print the
 // whole name, and messages about a recording skip "desc.".
 inline constexpr std::size_t name_in_desc = 0, name_in_recording = 5;
 

@@ -11,7 +11,7 @@ float wrapped(float x) {
 }
 
 // Returns how much depth changes from one pixel to the next along both axes. On each axis, it uses the
-// neighbour on the flatter side.
+// neighbour whose depth differs less.
 float flat_steps(const View& view, int x, int y, float depth) {
   const auto step = [&](int aside, int up) {
     return std::min(std::abs(depth_near(view, x - aside, y - up) - depth),
@@ -48,7 +48,7 @@ Range likely_range(const PresentAo& present, int x, int y) {
   return {std::max(mean - reach, centre - noise), std::min(mean + reach, centre + noise)};
 }
 
-// A position in the earlier image, in pixels. Pixel centres have integer coordinates.
+// A position in the previous frame's image, in pixels. Pixel centres have integer coordinates.
 struct Place {
   float x = 0, y = 0;
 };
@@ -64,8 +64,8 @@ Place earlier_place(const PresentAo& present, const History& history, std::uint3
           (earlier.y / extent - history.rays.y_offset) / history.rays.y_scale - 0.5f};
 }
 
-// Interpolates the history at a position. Of the four pixels around the position, only those that show the
-// same surface take part.
+// Interpolates the history at a position. Of the four pixels around the position, uses only the pixels that
+// show the same surface.
 MeanAo earlier_mean(const History& history, Place place, float depth, float tolerance) {
   const float base_x = std::floor(place.x), base_y = std::floor(place.y);
   MeanAo mean{0, 0};

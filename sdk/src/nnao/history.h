@@ -16,9 +16,10 @@ struct History {
   std::uint32_t width = 0, height = 0;
   ScreenRays rays;
   std::span<const float> depth;   // metres, infinity or NaN for the sky
-  std::span<const float> ao;      // means
+  std::span<const float> ao;      // mean AO
   std::span<const float> frames;  // frames in the mean; 0: no history
-  Mat3x4 earlier_from_view;       // from the view space of the current frame to the earlier frame's
+  Mat3x4 earlier_from_view;       // maps the view space of the current frame to the view space of the
+                                  // previous frame
 };
 
 // The current frame.
@@ -26,7 +27,7 @@ struct PresentAo {
   View view;
   std::span<const float> ao;            // before the filter
   std::span<const std::uint8_t> edges;  // packed_edges
-  std::span<const float> motion;        // x and y for each pixel, in pixels; empty: no motion vectors
+  std::span<const float> motion;        // motion vectors: x and y for each pixel, in pixels; may be empty
   std::uint32_t taps = default_taps;
   float tolerance = 0.03f;  // metres; nook_nnao_desc: radius / blur_sharpness
 };
@@ -34,9 +35,9 @@ struct PresentAo {
 // Returns the noise of a pixel in a frame; see frame_noise_step.
 TapNoise noise_of_frame(TapNoise noise, std::uint32_t frame);
 
-// Returns approximately how far the noise of the taps moves AO away from its mean. The mean of earlier frames
-// is clamped to this distance from the pixel's current AO. With a larger distance, AO would flicker less, but
-// dark lines that are one pixel wide would be lost.
+// Returns the approximate amplitude of the noise that the taps cause in AO. The mean of earlier frames is
+// clamped to within this difference from the pixel's current AO. With a larger value, AO would flicker less,
+// but dark lines that are one pixel wide would be lost.
 constexpr float noise_reach(std::uint32_t taps) {
   return taps < 16 ? 0.2f : taps < 32 ? 0.12f : 0.08f;
 }

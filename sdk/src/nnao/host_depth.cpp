@@ -10,7 +10,7 @@ namespace nook::nnao {
 namespace {
 
 // Returns the factor by which to multiply the matrix so that clip w is -z (perspective) or 1 (orthographic).
-// Multiplying a projection by a factor does not change its result.
+// The factor does not change the projection.
 double factor(const float (&projection)[16]) {
   return 1.0 / (is_perspective(projection) ? -double(projection[11]) : double(projection[15]));
 }
@@ -47,8 +47,8 @@ ScreenRays projection_rays(const float (&projection)[16], std::uint32_t width, s
 namespace {
 
 // An oblique projection adds m[2] x + m[6] y to clip z. After the division by w, this term is linear in the
-// pixel's coordinates. The decode subtracts it from the stored value: the constant part, at pixel (0, 0),
-// goes into the constants, and the rest into the slopes.
+// pixel's coordinates. The decoder subtracts it from the stored value. Its value at pixel (0, 0) is included
+// in the constants, and the rest is stored as slopes.
 void add_slope(DepthDecode& decode, const DepthSource& source, double stored_scale) {
   const auto& m = source.projection;
   const ScreenRays rays = projection_rays(m, source.width, source.height);

@@ -17,7 +17,7 @@ struct DepthSource {
   float sky_depth = 0;  // metres; linear depths of at least this value are sky; 0: no limit
   // The constants C, n and f of logarithmic depth, as the C interface defines them.
   float log_scale = 1, log_near = 0, log_far = 0;
-  std::uint32_t width = 1, height = 1;  // of the image; only an oblique projection reads them
+  std::uint32_t width = 1, height = 1;  // size of the image; only used for an oblique projection
 };
 
 // The values match nook_nnao_sample.
@@ -63,8 +63,8 @@ float view_depth(const DepthDecode& decode, bool perspective, float stored, Pixe
 void check_normal_matrix(const float (&matrix)[9]);
 
 // The minimum length of a normal. If the normal in a texel is shorter, the host has not drawn a normal there.
-// The limit for normalised integers is higher: a target that is cleared to 1/2 holds 128 / 255 or 512 / 1023,
-// which decodes to components of 0.004 or 0.001 and a length of 0.007 or 0.002.
+// The limit for normalised integers is higher. If a target is cleared to 1/2, it contains 128 / 255 or 512 /
+// 1023. This decodes to components of 0.004 or 0.001, and to a length of 0.007 or 0.002.
 inline constexpr float shortest_float_normal = 1e-3f, shortest_normalised_normal = 0.25f;
 
 // Returns the mean factor by which a matrix scales lengths: the cube root of its determinant.

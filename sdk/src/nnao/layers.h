@@ -1,5 +1,5 @@
-// Visits the parameters of a network's small layers in the order that files and the training use. Layers come
-// in the order of network.h, and the parameters of a layer in the order of its members.
+// Visits the parameters of a network's small layers in the order that files and the training use. The layers
+// have the order of network.h, and the parameters of a layer have the order of its members.
 #pragma once
 
 #include <span>

@@ -8,9 +8,9 @@
 
 namespace nook::nnao {
 
-// Weights of the specular occlusion, a small network with one hidden layer. With the half angle of the cone
-// cos = sqrt(1 - AO), the bent normal b, the normal n, the direction to the viewer v, its reflection r and
-// the roughness, the inputs are x = (cos, dot(b, r), dot(n, v), dot(n, b), roughness), and
+// The weights of a small network with one hidden layer, which computes specular occlusion. With the half
+// angle of the cone cos = sqrt(1 - AO), the bent normal b, the normal n, the direction to the viewer v, its
+// reflection r and the roughness, the inputs are x = (cos, dot(b, r), dot(n, v), dot(n, b), roughness), and
 //   hidden = out . max(weights x + bias, 0) + out_bias
 //   occlusion = clamp(lerp(1 - cos hidden, AO, roughness^4), 0, 1).
 // Roughness is perceptual: the GGX width is its square. At roughness 1, the occlusion equals the AO of the
@@ -22,7 +22,7 @@ struct SpecularNumbers {
   std::array<float, units> bias{}, out{};
   float out_bias = 0;
 };
-// Returns the weights that the shader uses. They are the result of `nook train specular`.
+// Returns the weights that the shader uses. `nook train specular` computed them.
 SpecularNumbers specular_numbers();
 
 // The inputs of the specular occlusion at a pixel. Directions have unit length.
@@ -34,8 +34,8 @@ struct LitPixel {
 std::array<float, SpecularNumbers::inputs> specular_inputs(const LitPixel& pixel, float roughness);
 float specular_occlusion(const SpecularNumbers& numbers, const LitPixel& pixel, float roughness);
 
-// Returns the cosine of the half angle of the visibility cone around the bent normal, which has the same
-// openness as the pixel.
+// The visibility cone is the cone around the bent normal that has the same AO as the pixel. Returns the
+// cosine of its half angle.
 float cone_cosine(float ao);
 
 // Returns AO brightened by the light that the surroundings reflect, for one channel of the albedo.

@@ -78,7 +78,7 @@ struct ThresholdDense {
 // half-line. A tap outside the screen is moved to the nearest pixel on the screen. With v = p_t - p, the
 // direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the angle c =
 // dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), where |v| is at least half a pixel, a tap's
-// hidden units are tap(input) of
+// hidden units are the output of the layer `tap` for
 //   input = (s, s c, s w, s c w).
 // The sky is treated as a surface at infinity. The input of the layer `direction` is the maximum and the mean
 // of the tap units over the steps of a direction. The gate of `direction` is (dot(n, t), dot(n, o)), where t
@@ -86,11 +86,11 @@ struct ThresholdDense {
 // mean of the `direction` units over all directions. The gate of `join` is dot(n, o) and the distance of the
 // pixel from the border of the screen in radii, at most 1. AO is
 //   1 - min(-dot(out, join), bound),
-// where bound is NOOK_HORIZON_BOUND times the mean over directions of the greatest max(s w, 0) of a
-// direction. So a pixel stays open unless some tap is both near the pixel and above its plane. Surfaces far
-// behind a silhouette do not darken the pixel. The layer `bent` has the same input and gate as `direction`,
-// and two outputs (p, q) for each direction. The bent normal is the cosine-weighted mean of the open
-// directions, and points along
+// For each direction, take the greatest max(s w, 0) of its taps. `bound` is NOOK_HORIZON_BOUND times the mean
+// of these values over all directions. So the AO of a pixel is 1 unless some tap is both near the pixel and
+// above its plane. Surfaces far behind a silhouette do not darken the pixel. The layer `bent` has the same
+// input and gate as `direction`, and two outputs (p, q) for each direction. The bent normal is the
+// cosine-weighted mean of the open directions, and points along
 //   n + mean over directions of (p t + q o).
 // The tap layer has thresholds; the other layers have no bias. If every tap lies below the pixel's plane or
 // only slightly above it, all units are 0 and AO is 1. So a plane is fully open from every viewing angle, up

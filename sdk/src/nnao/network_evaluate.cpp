@@ -199,7 +199,7 @@ HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 posi
                                   Vec3 viewer, float radius) {
   const Vec3 v = texel_position(view, texel) - position;
   // At the border of the screen, a tap can be clamped to the pixel itself. Its v is then only a rounding
-  // error, so the distance is raised to half a pixel.
+  // error, so |v| is raised to half a pixel.
   const PixelScale scale = pixel_scale(view.rays, -position.z);
   const float away = std::max(length(v), 0.5f / std::max(std::abs(scale.x), std::abs(scale.y)));
   const float elevation = dot(v, normal) / away, angle = dot(v, viewer) / away;

@@ -1,6 +1,6 @@
-// Evaluates a network on the CPU, one pixel at a time. The result is raw AO, before the filter. Tests of the
-// OpenGL pass compare with this evaluation, and the training reports its errors. View space is the same as in
-// OpenGL. Row 0 is at the bottom.
+// Evaluates a network on the CPU, one pixel at a time. The result is raw AO, before the filter. Tests compare
+// the OpenGL pass with it, and the training reports the errors of this evaluation. View space is the same as
+// in OpenGL. Row 0 is at the bottom.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +24,8 @@ struct ScreenRays {
 };
 
 // Derives the mapping from an OpenGL projection matrix (column-major), which may be off-centre, and the size
-// of the screen. The depth range of the projection, and whether depth is reversed, do not matter.
+// of the screen. The result does not depend on the depth range of the projection, or on whether depth is
+// reversed.
 ScreenRays screen_rays(const float (&projection)[16], std::uint32_t width, std::uint32_t height);
 
 inline Vec3 view_position(const ScreenRays& rays, float px, float py, float depth) {
@@ -64,15 +65,16 @@ inline float depth_near(const View& view, int x, int y) {
 
 struct Sampling {
   float radius = 1;                   // metres
-  float max_radius_px = 256;          // a radius that covers more pixels shrinks
+  float max_radius_px = 256;          // a radius that covers more pixels is reduced to this
   std::uint32_t taps = default_taps;  // horizon form: a count that horizon_grid accepts; paper form: 1 to 961
-  float min_radius_px = 0;            // a radius that covers fewer pixels grows; at most max_radius_px
+  float min_radius_px = 0;            // a radius that covers fewer pixels is enlarged to this; at most
+                                      // max_radius_px
   DistanceFade fade = {};
 };
 
-// The radius of one pixel after it was clamped, and the factor by which the pixel's darkness (1 - AO) is
-// multiplied. If the minimum enlarges the radius, an occluder darkens more pixels; the factor keeps the total
-// darkness the same. The factor also contains the fade with distance.
+// The clamped radius at one pixel, and the factor by which the pixel's darkness (1 - AO) is multiplied. If
+// the minimum enlarges the radius, an occluder darkens more pixels. The factor then keeps the total darkness
+// the same. The factor also contains the fade with distance.
 struct PixelRadius {
   float metres = 0, px = 0, share = 1;
 };
@@ -94,7 +96,8 @@ using HorizonTapInput = std::array<float, HorizonNetwork::tap_inputs>;
 HorizonTapInput horizon_tap_input(const View& view, TappedTexel texel, Vec3 position, Vec3 normal,
                                   Vec3 viewer, float radius);
 
-// Returns the distance of a pixel from the nearest border of the screen, in radii, at most 1.
+// Returns the distance of a pixel from the nearest border of the screen, divided by the radius, but at most
+// 1.
 inline float border_distance(const View& view, std::uint32_t x, std::uint32_t y, float radius_px) {
   const float across = float(std::min(x, view.width - 1 - x)), up = float(std::min(y, view.height - 1 - y));
   return std::min((std::min(across, up) + 0.5f) / radius_px, 1.0f);

@@ -14,17 +14,17 @@ namespace {
 // elements, and a distant near plane causes a large one.
 constexpr double equal_share = 1e-6;
 
-// The relative tolerance of the depths at both ends of the clip range. It is needed because some infinite
-// projections place the far plane slightly beyond infinity.
+// The relative tolerance for the depths at both ends of the clip range. Some infinite projections need it,
+// because they place the far plane slightly beyond infinity.
 constexpr double plane_share = 1e-3;
 
-// In a camera's projection, the far plane is more than this many times as far away as the near plane.
+// In the projection of a real camera, the far depth divided by the near depth is larger than this.
 constexpr double usual_depth_ratio = 50;
 
 // A projection matrix, with the elements m[i] in OpenGL's (column-major) order.
 struct Matrix {
   double m[16];
-  double largest[4];  // magnitude in each row
+  double largest[4];  // the largest magnitude in each row
 
   double operator[](int i) const { return m[i]; }
   bool zero(int i) const { return std::abs(m[i]) <= equal_share * largest[i % 4]; }
@@ -53,7 +53,7 @@ Matrix transposed(const Matrix& matrix) {
   return matrix_of([&](int i) { return matrix[4 * (i % 4) + i / 4]; });
 }
 
-// In a camera's projection, clip x depends on x and z, clip y on y and z, and clip w on z or on nothing.
+// In a camera's projection, clip x depends on x and z, clip y on y and z, and clip w on z or is constant.
 // Returns the index of an element that should be 0 but is not, or -1 if there is none.
 int stray_element(const Matrix& m) {
   const bool perspective = m.perspective();
@@ -72,13 +72,13 @@ bool is_one(double value) {
   return std::abs(std::abs(value) - 1) <= 1e-5;
 }
 
-// Returns 1 / depth in a perspective where clip z / w has this value.
+// Returns 1 / depth of the points whose clip z / w has this value, in a perspective projection.
 double inverse_depth(const Matrix& m, double clip_z) {
   return (clip_z - m[10] / m[11]) / (-m[14] / m[11]);
 }
 
 struct InverseDepths {
-  double first, last;  // at both ends of the clip range
+  double first, last;  // the values at both ends of the clip range
 
   bool before_camera() const {
     return std::min(first, last) >= -plane_share * std::max(std::abs(first), std::abs(last));
@@ -98,15 +98,15 @@ bool is_deep(const Matrix& m, ClipRange clip) {
   return !m.oblique() && depths.before_camera() && depths.ratio() > usual_depth_ratio;
 }
 
-// In a perspective, clip w is -z or z. Transposing the matrix swaps this coefficient of -1 or 1 with the
-// element that depends on the near plane.
+// In a perspective projection, clip w is -z or z, so its coefficient is -1 or 1. If the matrix is transposed,
+// this coefficient is swapped with the element that depends on the near plane.
 bool is_transposed(const Matrix& m, ClipRange clip) {
   const Matrix turned = transposed(m);
   if (!is_camera_of_any_hand(turned)) return false;
   if (!is_camera_of_any_hand(m)) return true;
   if (!m.perspective()) return false;
-  // The matrix may be multiplied by any factor, so neither element need be 1. Then the depth range shows
-  // which matrix is the projection.
+  // The host may have multiplied the matrix by a factor, so that neither element is 1 or -1. Then the depth
+  // range shows which of the two matrices is the projection.
   if (!is_one(m[14]) && !is_one(m[11])) return !is_deep(m, clip) && is_deep(turned, clip);
   if (!is_one(m[14])) return false;
   return !is_one(m[11]) || (m.zeros({8, 9}) && m.oblique());
@@ -124,8 +124,9 @@ double dot(const Axis& a, const Axis& b) {
 }
 
 // Returns true for a rotation with a uniform scale and a translation, such as an object's or a camera's
-// matrix. The orthographic projection of a cube has the same shape. Such a matrix is taken for a projection
-// if m[10] is negative, or if its box is wider than 2 metres and lies in front of the camera.
+// matrix. The orthographic projection of a cube has the same shape. Such a matrix is treated as a projection
+// if m[10] is negative, or if the box that it projects is wider than 2 metres and lies in front of the
+// camera.
 bool is_placement(const Matrix& m) {
   if (!m.zeros({3, 7, 11}) || !is_one(m[15])) return false;
   const Axis axes[] = {{m[0], m[1], m[2]}, {m[4], m[5], m[6]}, {m[8], m[9], m[10]}};
@@ -144,8 +145,8 @@ const char* clip_name(ClipRange clip) {
                                         : "NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE";
 }
 
-// Reversed depth shows which clip range the projection uses. With the wrong clip range, one end of it lies
-// behind the camera, or the far plane is only twice as far away as the near plane.
+// Reversed depth shows which clip range the projection uses. With the wrong clip range, one end of the range
+// lies behind the camera, or the far plane is only twice as far away as the near plane.
 void check_perspective_depth(const Matrix& m, ClipRange clip) {
   const bool zero_to_one = clip == ClipRange::zero_to_one;
   const ClipRange other = zero_to_one ? ClipRange::negative_one_to_one : ClipRange::zero_to_one;
@@ -173,7 +174,8 @@ void check_perspective_depth(const Matrix& m, ClipRange clip) {
                 element, m[element]);
 }
 
-// Rejects a left-handed orthographic projection, whose whole box lies behind a camera that looks along -z.
+// Rejects a left-handed orthographic projection. The whole box that it projects lies behind a camera that
+// looks along -z.
 void check_parallel_depth(const Matrix& m, ClipRange clip) {
   const double first = (m[14] / m[15] - (clip == ClipRange::zero_to_one ? 0 : -1)) / m[10] * m[15],
                last = (m[14] / m[15] - 1) / m[10] * m[15];

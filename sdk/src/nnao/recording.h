@@ -37,7 +37,8 @@ struct RecordedFrame {
   float fade_begin = 0, fade_end = 0;  // metres; 0: no fade
 };
 
-// Copies the settings of a frame between this structure and the C interface's, which have the same members.
+// Copies the settings of a frame between this structure and the structure of the C interface, which has the
+// same members.
 template <class From, class To>
 void copy_frame_settings(const From& from, To& to) {
   to.depth_kind = from.depth_kind;
@@ -100,14 +101,15 @@ struct Recording {
   String vendor, renderer, driver_version, note;
 };
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) that names the field. Depth, normals and layer may contain any
-// values, including NaN, because a host may want to record exactly such a faulty frame.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if a value is invalid. The message names the field. Depth,
+// normals and layer may contain any values, including NaN, because a host may want to record exactly such a
+// faulty frame.
 void check_recording(const Recording& recording);
 
 // Information about the network file in a recording.
 struct RecordedNetwork {
-  bool readable = false;  // this library can evaluate it
-  bool embedded = false;  // it is the network that is compiled into this library
+  bool readable = false;  // true if this library can evaluate the network
+  bool embedded = false;  // true if it is the network that is compiled into this library
 };
 RecordedNetwork recorded_network(const Recording& recording);
 

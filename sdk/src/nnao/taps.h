@@ -11,15 +11,15 @@
 
 namespace nook::nnao {
 
-// Two values in (0, 1) that vary the taps from pixel to pixel. Over a block of 3 x 3 pixels, each value takes
-// 9 evenly spaced steps. Together, the pairs form the Hammersley set in base 3. The filter gives all nine
+// Two values in (0, 1) that vary the taps from pixel to pixel. In a block of 3 x 3 pixels, each value has 9
+// evenly spaced steps. The 9 pairs of values form the Hammersley set in base 3. The filter gives all nine
 // values the same total weight.
 struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };
 
-// Returns the offset that is added to the noise in a frame. The offsets are M. Roberts' sequence R2. Because
-// of them, a mean over several frames uses more directions and distances.
+// Returns the offset that is added to the noise in a frame. The offsets are M. Roberts' sequence R2. They
+// ensure that a mean over several frames uses more directions and distances.
 inline TapNoise frame_noise_step(std::uint32_t frame) {
   constexpr double rotation = 0.7548776662466927, offset = 0.5698402909980532;
   return {float(std::fmod(rotation * frame, 1.0)), float(std::fmod(offset * frame, 1.0))};
@@ -41,8 +41,8 @@ struct TapOffset {
   float x_px = 0, y_px = 0;
 };
 
-// Pixels per metre in view space at the pixel's depth. A negative value means that the screen's axis points
-// against the axis of view space.
+// Pixels per metre in view space at the pixel's depth. A negative value means that the screen's axis and the
+// axis of view space have opposite directions.
 struct PixelScale {
   float x = 1, y = 1;
 };
@@ -79,7 +79,7 @@ inline float direction_angle(std::uint32_t direction, std::uint32_t directions, 
 }
 
 // Returns the distance of a step from the pixel, in pixels of the screen's y axis. Distances grow with the
-// step index to the power 3/2, so that more taps are near the pixel: near occluders cover more of the
+// step index to the power 3/2. So more taps are near the pixel, because near occluders cover more of the
 // hemisphere. No two steps fall on the same pixel.
 inline float step_distance_px(std::uint32_t step, std::uint32_t steps, TapNoise noise, float radius_px) {
   const float share = (float(step) + noise.offset) / float(steps);
