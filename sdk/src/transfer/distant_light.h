@@ -23,8 +23,8 @@ constexpr float sharpness_of(std::uint32_t lobes) {
   return 0.35f * float(lobes);
 }
 
-// Fills `axes` with H. Vogel's spiral. Successive azimuths differ by the golden angle. Heights z run from 1
-// to -1, at the centres of zones of equal area.
+// Fills `axes` with H. Vogel's spiral. Successive azimuths differ by the golden angle. The heights z go from
+// 1 to -1. Each point is at the middle height of a zone, and all zones have equal area.
 void lobe_axes(std::span<Vec3> axes);
 
 // Distant light as spherical-harmonic bands 0 to 2: nine real harmonics, orthonormal over the sphere (P.-P.
@@ -66,7 +66,7 @@ struct CubeCells {
 };
 
 // Returns the mean radiance of each cell over the texels of the map that lie in the cell. If the map is so
-// small that no texel lies in a cell, the cell gets the nearest texel.
+// small that no texel lies in a cell, the cell gets the value of the nearest texel.
 Vector<Vec3> cell_means(const MapView& map, const CubeCells& cells, Memory* memory);
 
 }  // namespace nook::transfer

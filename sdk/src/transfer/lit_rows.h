@@ -1,7 +1,7 @@
 // The paper's form, arranged so that a shader can evaluate it. Under a given light, the vector of a vertex is
 // a weighted sum of a few row vectors. The row vectors depend on the light. Some of them belong to the
-// vertex's cluster, and others to reflected light. The weights belong to the vertex and do not depend on the
-// light.
+// vertex's cluster, and the others to light that the shape reflects onto itself. The weights belong to the
+// vertex and do not depend on the light.
 #pragma once
 
 #include <array>

@@ -25,7 +25,7 @@ std::size_t row_start(std::size_t row) {
   return row * (row + 1) / 2;
 }
 
-// Cholesky factorisation, row by row and in place.
+// Computes the Cholesky factor of `a`, row by row and in place.
 void factor(Vector<double>& a, std::size_t n) {
   for (std::size_t i = 0; i < n; ++i) {
     double* const row = &a[row_start(i)];
@@ -88,7 +88,7 @@ void LobeFit::fit(const CubeCells& cells, std::span<const Vec3> radiance, const 
   Vector<double> moments(3 * n, 0.0, axes_.get_allocator().memory());
   const float* const m = light_from_shape.m;
   for (std::size_t i = 0; i < cells.size(); ++i) {
-    // The transpose of a rotation is its inverse.
+    // Rotates the direction by the transpose of the matrix, which is the inverse of the rotation.
     const Vec3 d = cells.direction[i];
     const Vec3 in_shape{m[0] * d.x + m[4] * d.y + m[8] * d.z, m[1] * d.x + m[5] * d.y + m[9] * d.z,
                         m[2] * d.x + m[6] * d.y + m[10] * d.z};
@@ -177,7 +177,7 @@ const LobeFit& FitCache::of(std::uint32_t lobes) {
   }
   made->next = first;
   while (!first_.compare_exchange_weak(made->next, made, std::memory_order_acq_rel)) {
-    // Other threads may have added entries in front of the ones that were already searched.
+    // Meanwhile, other threads may have added entries at the front of the list. Only these are searched.
     if (const LobeFit* const known = find(made->next, first, lobes)) {
       drop(made);
       return *known;

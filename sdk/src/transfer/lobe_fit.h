@@ -25,8 +25,8 @@ class LobeFit {
   // directions from the shape's space to the light's space.
   void fit(const CubeCells& cells, std::span<const Vec3> radiance, const Mat3x4& light_from_shape,
            std::span<float> amplitudes) const;
-  // Fits a directional light. `direction` is in the shape's space, and `irradiance` is the irradiance on a
-  // plane that faces the light.
+  // Fits a directional light. `direction` is in the shape's space. `irradiance` is what a plane that faces
+  // the light receives.
   void fit_direction(Vec3 direction, Vec3 irradiance, std::span<float> amplitudes) const;
 
  private:
@@ -45,8 +45,8 @@ struct FitQuality {
 FitQuality fit_quality(const LobeFit& fit, std::span<const float> amplitudes, const CubeCells& cells,
                        std::span<const Vec3> radiance, const Mat3x4& light_from_shape);
 
-// The factored Gram matrices of a context. There is one for each number of lobes with which the context has
-// projected light.
+// The factored Gram matrices of a context. There is one for each number of lobes to which the context has
+// projected light so far.
 
 class LobeFit;
 

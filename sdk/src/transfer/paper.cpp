@@ -46,7 +46,7 @@ Vector<float> paper_light(const PaperTransfer& paper, std::span<const float> amp
   const std::size_t entries = 3 * modes * paper.vertex_rank;
   Vector<float> lit(paper.clusters * entries, 0.0f, memory);
   const auto body = [&](std::uint32_t cluster) noexcept {
-    // The light, projected onto the cluster's lobe basis.
+    // The amplitudes of the light, multiplied by the cluster's lobe basis.
     std::array<FloatRow, 3> light;
     FloatRow row;
     const std::uint16_t* basis = &paper.lobe_basis[cluster * lobes * rank];

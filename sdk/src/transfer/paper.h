@@ -26,9 +26,10 @@ struct PaperTransfer {
   explicit PaperTransfer(Memory* memory = default_memory())
       : lobe_basis(memory), cores(memory), cluster(memory), coefficients(memory) {}
 
-  std::uint32_t light_modes = 0;  // of one channel; 0: the transfer does not have the paper's form
+  std::uint32_t light_modes = 0;  // number of light modes of one channel; 0: the transfer does not have the
+                                  // paper's form
   std::uint32_t clusters = 0, lobe_rank = 0, vertex_rank = 0;
-  std::uint64_t light_hash = 0;  // of the material, see material/tables.h
+  std::uint64_t light_hash = 0;  // MaterialTables::light_hash of the material
   float scale = 1;               // scale of the cores
 
   // Half floats; bases and coefficients are between -1 and 1.

@@ -10,8 +10,8 @@ namespace {
 
 // The finer grid has this many steps between two nodes.
 constexpr std::uint32_t parts = 4;
-// The minimum number of nodes along a side. The more lobes there are, the narrower they are and the more
-// nodes they need, but light bases need at least this many.
+// The minimum number of nodes along a side. Narrower lobes need more nodes. This minimum is needed to resolve
+// light bases.
 constexpr std::uint32_t min_side = 28;
 std::uint32_t side_of(std::uint32_t lobes) {
   return std::clamp(std::uint32_t(std::lround(1.35 * std::sqrt(double(lobes)))), min_side, max_side);
@@ -108,8 +108,8 @@ void find_rows(float radius, Response& response) {
 }  // namespace
 
 HemisphereCells::HemisphereCells(float sharpness, Memory* memory) : direction(memory) {
-  // The width of a cell is a third of a lobe's width, but at most 3 degrees, because light bases need this
-  // resolution.
+  // The width of a cell is a third of a lobe's width, but at most 3 degrees, because this resolution is
+  // needed for light bases.
   const auto across = std::uint32_t(std::clamp(std::ceil(4 * std::sqrt(double(sharpness))), 48.0, 256.0));
   for (std::uint32_t row = 0; row < across; ++row)
     for (std::uint32_t column = 0; column < across; ++column) {

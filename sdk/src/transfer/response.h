@@ -2,8 +2,8 @@
 //   P[c, a](d) = integral of exp(sharpness (dot(d, s) - 1)) phi[c, a](s) over the upper hemisphere,
 // on a square grid of the equal-area map p = d.xy / sqrt(1 + d.z), in which the hemisphere is the unit disc.
 // Between nodes, the response is interpolated bilinearly. The values at the nodes are not samples of P. They
-// minimise the squared error of the interpolation over a finer grid, so that the interpolation does not blur
-// P.
+// are chosen to minimise the squared error of the interpolation on a finer grid, so that the interpolation
+// does not blur P.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,7 @@ struct Response {
   // is lower than lowest_z has no effect.
   std::uint32_t side = 0;
   float scale = 0, centre = 0, lowest_z = 0;
-  // The range [begin, end) of nodes in each row that bilinear interpolation can touch.
+  // For each row, the range [begin, end) of nodes that bilinear interpolation can read.
   Vector<std::uint16_t> row_begin, row_end;
   AlignedArray<float> table;  // side x side x 3 x lanes
 
@@ -55,7 +55,7 @@ struct Response {
 
   Vector<float> even;  // 3 x light_modes integrals of the light basis, the response to uniform light
   Vec3 reflectance;
-  std::uint64_t light_hash = 0, votf_hash = 0;  // of the material
+  std::uint64_t light_hash = 0, votf_hash = 0;  // the hashes of the material
 };
 
 // Pass HemisphereCells(sharpness_of(lobes)) as `cells`.

@@ -1,6 +1,6 @@
 // Tangent frames of vertices. x points in the direction of increasing u, and z along the normal. y =
-// handedness * cross(z, x) points in the direction of increasing v. Handedness is -1 where the texture
-// coordinates are mirrored.
+// handedness * cross(z, x) points in the direction of increasing v. The handedness is -1 if the texture
+// coordinates are mirrored, otherwise 1.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ Frame orthonormal_frame(Vec3 normal, Vec3 tangent, float handedness);
 
 // A frame in six bytes. The normal is encoded on an octahedron, with 16 bits for each of two coordinates (Z.
 // Cigolle et al.: A Survey of Efficient Representations for Independent Unit Vectors, 2014). The angle
-// between the tangent and the x axis of Duff et al. takes 15 bits, and the handedness one bit. The error is
+// between the tangent and the x axis of Duff et al. takes 15 bits. The handedness takes one bit. The error is
 // at most 1e-4 radians.
 struct PackedFrame {
   std::uint16_t u = 0, v = 0, angle = 0;

@@ -11,13 +11,13 @@
 // depends only on the material. The radiance of a pixel is sum_a L_a r[c, a], where L_a are the light modes
 // that the material decodes.
 //
-// Light that the shape reflects onto itself is stored separately, as the irradiance that light of bands 0 to
-// 2 causes. If a channel has the mean reflectance a, the irradiance that a vertex receives after 1 to B
-// reflections is
+// Light that the shape reflects onto itself is stored separately, as the irradiance that light in the
+// spherical-harmonic bands 0 to 2 causes. If a channel has the mean reflectance a, the irradiance that a
+// vertex receives after 1 to B reflections is
 //   E[c] = sum_b a[c]^b sum_k L_k[c] m_(b,k),   b = 1 to B,
-// where m is computed for a shape that reflects all light. So the file does not depend on the material's
-// reflectance, and you can use any material on the shape. E[c] / pi times the integral of phi[c, a] is added
-// to the vector.
+// where a is to the power b, and m is computed for a shape that reflects all light. So the file does not
+// depend on the material's reflectance, and you can use any material on the shape. E[c] / pi times the
+// integral of phi[c, a] is added to the vector.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,8 @@
 namespace nook::transfer {
 namespace {
 
-// Light of one harmonic over a hemisphere causes an irradiance of at most pi times 0.64, which is the maximum
-// of the harmonics of bands 0 to 2.
+// The limit for reflected light. Light that equals one harmonic causes an irradiance of at most pi * 0.64 =
+// 2.01. 0.64 is the maximum of the harmonics of bands 0 to 2.
 constexpr float max_indirect = 4;
 
 void need_size(std::size_t got, std::uint64_t need, const char* what, nook_result code) {

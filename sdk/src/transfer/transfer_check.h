@@ -30,8 +30,8 @@ struct MeshArrays {
 // array.
 void check_same_mesh(const Transfer& transfer, const MeshArrays& mesh);
 
-// Throws Failure(INVALID_ARGUMENT) if the transfer was baked with the holes of a different VOTF than the
-// material's.
+// Throws Failure(INVALID_ARGUMENT) if the bake took the holes of surfaces from a VOTF that is not the
+// material's VOTF.
 void check_same_material(const Transfer& transfer, std::uint64_t votf_hash);
 // Throws Failure(INVALID_ARGUMENT) if the transfer has the paper's form and was baked for the light modes of
 // another material.

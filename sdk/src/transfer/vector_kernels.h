@@ -1,5 +1,5 @@
-// Computes vectors at vertices. There is a plain function for each instruction set. All arrays belong to the
-// caller. The functions do not allocate, lock or throw.
+// Computes the vectors of vertices (see transfer.h). There is a plain function for each instruction set. All
+// arrays belong to the caller. The functions do not allocate, lock or throw.
 #pragma once
 
 #include <cstdint>
@@ -66,8 +66,8 @@ const VectorKernels* vector_kernels(Isa isa);
 
 }  // namespace nook::transfer
 
-// Declares the function table that each instruction set's translation unit defines. Use a table only if the
-// processor has the instruction set.
+// Declares, for each instruction set, the function that returns its table. Each instruction set has its own
+// translation unit. Use a table only if the processor has the instruction set.
 #define NOOK_ISA_ENTRY(name, value, built, runs)     \
   namespace nook::isa_##name {                       \
     const transfer::VectorKernels& vector_kernels(); \

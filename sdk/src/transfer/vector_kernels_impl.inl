@@ -1,6 +1,6 @@
-// The kernels over one vector type. Each instruction set includes this file inside its own namespace, after
-// defining there isa, Float, width, broadcast, load and store. Everything here but vector_kernels() has
-// internal linkage.
+// The kernels for one vector type. Each instruction set includes this file inside its own namespace. Before
+// that, it must define isa, Float, width, broadcast, load and store there. Everything here except
+// vector_kernels() has internal linkage.
 
 namespace {
 
@@ -16,8 +16,8 @@ struct alignas(64) Places {
   float upper[chunk], lower[chunk];  // the lobe's share in that node's row and in the next row
 };
 
-// Rounds positions in the grid to the nearest integer. At the magnitude below, floats are integers, so adding
-// and subtracting it rounds.
+// Rounds positions in the grid to the nearest integer. Floats as large as `magnitude` have no fraction, so
+// adding `magnitude` and subtracting it again rounds a position.
 Float to_whole(Float place) {
   const Float magnitude = broadcast(12582912.0f);  // 1.5 x 2^23
   return (place + magnitude) - magnitude;
@@ -37,7 +37,7 @@ std::uint64_t place_lobes(const LightView& light, const float* frame, const std:
                           std::uint32_t first, std::uint32_t count, Places& places) {
   alignas(64) float share[chunk];
   read_shares(shares, count, share);
-  float across[6];  // the axes x and y in units of grid steps
+  float across[6];  // the axes x and y, in grid steps
   for (std::uint32_t i = 0; i < 6; ++i) across[i] = frame[i] * light.scale;
   const Float zero = broadcast(0.0f), half = broadcast(0.5f), last = broadcast(float(light.side - 2));
   const Float centre = broadcast(light.centre), lowest = broadcast(light.lowest_z);
@@ -95,9 +95,10 @@ void spread(const LightView& light, const std::uint8_t* shares, const float* fra
 inline constexpr std::uint32_t group = width >= 16 ? 1 : 2;
 
 // The number of channels that are processed at once. A product loads a row of the table and a node's weight
-// from memory, and processors can load at most two values for two products. If four vertices share the rows,
-// one channel loads two rows and four weights for eight products. Wide vectors, and blocks of fewer vertices,
-// process all channels at once, so that enough independent sums are in flight to hide latency.
+// from memory, and processors can load at most two values for two products. In a block of four vertices, one
+// channel needs six loads, two rows and four weights, for eight products. With wide vectors, or with fewer
+// vertices in a block, all channels are processed at once, so that enough independent sums are in flight to
+// hide the latency.
 template <std::uint32_t Vertices>
 inline constexpr std::uint32_t channels_at_once = width >= 16 || Vertices < 4 ? 3 : 1;
 

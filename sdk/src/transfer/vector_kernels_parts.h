@@ -1,4 +1,5 @@
-// The headers of vector_kernels_impl.inl, which is included inside a namespace.
+// The headers that vector_kernels_impl.inl needs. That file is included inside a namespace, so it cannot
+// include them itself.
 #pragma once
 
 #include <bit>

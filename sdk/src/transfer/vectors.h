@@ -1,4 +1,4 @@
-// Computes vectors at vertices from light, visibility and a material's response.
+// Computes the vectors of vertices (see transfer.h) from light, visibility and a material's response.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,7 @@ void baked_vectors(const Response& response, Isa isa, std::span<const float> amp
                    const Transfer& transfer, std::uint32_t first, std::uint32_t count,
                    const VectorOutput& output, const Parallel& parallel, Memory* memory);
 
-// Computes the vectors of vertices without baked visibility: all light above the horizon of a vertex reaches
-// it.
+// Computes the vectors of vertices without baked visibility: all light above its horizon reaches a vertex.
 void open_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
                   std::span<const Frame> frames, const VectorOutput& output, const Parallel& parallel,
                   Memory* memory);
