@@ -9,8 +9,8 @@
 namespace nook::synthesis {
 namespace {
 
-// Splits a position, in texels, into a texel index and a fraction. The row of texels repeats after `size`
-// texels. If the position exceeds the precision of floats, the result is an arbitrary texel of the row.
+// Splits a position, in texels, into a texel index and a fraction. The texels repeat after `size` texels. If
+// the position is so large that a float cannot represent its fraction, the result is an arbitrary texel.
 struct Place {
   std::uint32_t texel;
   float fraction;

@@ -1,11 +1,11 @@
 // The coordinate texture S of section 6.3.3 of Y.-T. Tsai, Z.-C. Shih: K-Clustered Tensor Approximation,
-// 2012, as plain data. For each texel of a periodic plane, it stores which texel of a material is shown
-// there.
+// 2012, as plain data. It covers a plane that repeats. For each texel of the plane, it stores which texel of
+// a material is shown there.
 //
 // Points of the plane have coordinates in units of the material's tile, so that a texel has the same size on
-// the plane as in the material. Inside a texel of the plane, the position in the material moves continuously.
-// The picture is continuous wherever neighbouring texels of the plane show neighbouring texels of the
-// material.
+// the plane as in the material. Inside a texel of the plane, the position in the material varies
+// continuously. At the border between two texels of the plane, the picture is continuous if they show
+// neighbouring texels of the material.
 #pragma once
 
 #include <nook/nook.h>
@@ -32,7 +32,7 @@ struct Cell {
 struct Coordinates {
   explicit Coordinates(Memory* memory = default_memory()) : cells(memory), recipe(memory) {}
 
-  std::uint32_t side = 0;               // texels along a side; the plane repeats after them
+  std::uint32_t side = 0;               // texels along a side of the plane, which repeats after them
   std::uint32_t width = 0, height = 0;  // texels of the material
   Vector<Cell> cells;                   // side x side, row by row from v = 0 on
   String recipe;                        // settings of the bake, JSON; the runtime does not read it

@@ -101,14 +101,14 @@ inline Float sqrt(Float a) {
   return _mm256_sqrt_ps(a.v);
 }
 // Uses the exact square root. It costs less than an estimate with a Newton step, because it runs on the
-// processor's divider, which is idle otherwise and works in parallel to the other execution ports.
+// processor's divider. The divider is otherwise idle, and works in parallel to the other execution ports.
 inline Float sqrt_positive(Float a) {
   return _mm256_sqrt_ps(a.v);
 }
 inline Float power_three_halves(Float a) {
   return a * Float(_mm256_sqrt_ps(_mm256_max_ps(a.v, _mm256_setzero_ps())));
 }
-// The estimate has 12 bits, and one Newton step gives 22.
+// The processor's estimate is accurate to 12 bits. One Newton step makes it accurate to 22 bits.
 inline Float rsqrt(Float a) {
   const __m256 t = _mm256_rsqrt_ps(a.v);
   const __m256 residual = _mm256_fnmadd_ps(_mm256_mul_ps(a.v, t), t, _mm256_set1_ps(1.0f));
@@ -124,8 +124,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m256i bits = _mm256_castps_si256(a.v);
-  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
-  // from there on.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift returns the next exponent for
+  // mantissas of sqrt(2) and above.
   const __m256i e = _mm256_srai_epi32(_mm256_sub_epi32(bits, _mm256_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm256_cvtepi32_ps(e);
   mantissa = _mm256_castsi256_ps(_mm256_sub_epi32(bits, _mm256_slli_epi32(e, 23)));

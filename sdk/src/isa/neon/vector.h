@@ -105,10 +105,11 @@ inline Float sqrt(Float a) {
   return vsqrtq_f32(a.v);
 }
 
-// The processor's estimate r of 1 / sqrt(a) has 8 bits. The functions below multiply r by a power of a r^2 =
-// 1 - e, where |e| < 0.008. They compute this power with three terms of its series in e. The terms are
-// rewritten in powers of a r^2, which saves one multiplication. The relative errors are 5/16 e^3 for the
-// power -1/2 and 35/16 e^3 for the power -3/2, which is below 2e-7 and 2e-6.
+// The processor's estimate r of 1 / sqrt(a) is accurate to 8 bits. The functions below correct it: they
+// multiply by a power of u = a r^2 = 1 - e, where |e| < 0.008. They compute this power with three terms of
+// its series in e. The terms are rewritten in powers of u, which saves one multiplication. The relative error
+// is 5/16 e^3 for the power -1/2, which is below 2e-7. It is 35/16 e^3 for the power -3/2, which is below
+// 2e-6.
 
 // Returns (1 - e)^(-1/2) for u = 1 - e.
 inline Float inverse_root_near_one(Float u) {
@@ -138,8 +139,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const int32x4_t bits = vreinterpretq_s32_f32(a.v);
-  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
-  // from there on.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift returns the next exponent for
+  // mantissas of sqrt(2) and above.
   const int32x4_t e = vshrq_n_s32(vsubq_s32(bits, vdupq_n_s32(0x3f3504f3)), 23);
   exponent = vcvtq_f32_s32(e);
   mantissa = vreinterpretq_f32_s32(vsubq_s32(bits, vshlq_n_s32(e, 23)));

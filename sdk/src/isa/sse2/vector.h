@@ -105,7 +105,7 @@ inline Float sqrt_positive(Float a) {
 inline Float power_three_halves(Float a) {
   return a * Float(_mm_sqrt_ps(_mm_max_ps(a.v, _mm_setzero_ps())));
 }
-// The estimate has 12 bits, and one Newton step gives 22.
+// The processor's estimate is accurate to 12 bits. One Newton step makes it accurate to 22 bits.
 inline Float rsqrt(Float a) {
   const Float t = _mm_rsqrt_ps(a.v);
   return t * (Float(1.5f) - Float(0.5f) * a * t * t);
@@ -120,8 +120,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m128i bits = _mm_castps_si128(a.v);
-  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
-  // from there on.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift returns the next exponent for
+  // mantissas of sqrt(2) and above.
   const __m128i e = _mm_srai_epi32(_mm_sub_epi32(bits, _mm_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm_cvtepi32_ps(e);
   mantissa = _mm_castsi128_ps(_mm_sub_epi32(bits, _mm_slli_epi32(e, 23)));

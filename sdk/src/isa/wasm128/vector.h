@@ -117,8 +117,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 }
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
-  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift rounds the exponent up for mantissas
-  // from there on.
+  // 0x3f3504f3 is 1/sqrt(2). It is subtracted first, so that the shift returns the next exponent for
+  // mantissas of sqrt(2) and above.
   const v128_t e = wasm_i32x4_shr(wasm_i32x4_sub(a.v, wasm_i32x4_splat(0x3f3504f3)), 23);
   exponent = wasm_f32x4_convert_i32x4(e);
   mantissa = wasm_i32x4_sub(a.v, wasm_i32x4_shl(e, 23));
@@ -126,8 +126,8 @@ inline void split(Float a, Float& exponent, Float& mantissa) {
 inline Float nearest(Float a) {
   return wasm_f32x4_nearest(a.v);
 }
-// WebAssembly's conversion to integers saturates, which takes several instructions. Instead, adding 1.5 *
-// 2^23 to n puts its integer value into the lowest bits.
+// WebAssembly's conversion to integers saturates, which takes several instructions. Instead, this adds 1.5 *
+// 2^23 to n, which puts the integer value of n into the lowest bits.
 inline Float times_power_of_two(Float a, Float n) {
   const v128_t bits = (n + Float(12582912.0f)).v;
   return a * Float(wasm_i32x4_shl(wasm_i32x4_add(bits, wasm_i32x4_splat(127)), 23));
