@@ -91,7 +91,7 @@ nook::Vector<SkinnedVertex> skinned_vertices(const CharacterModel& model, const 
   return out;
 }
 
-// A batch of poses of one model, and where their AO is written to.
+// A batch of poses of one model, and the memory to which their AO is written.
 struct PoseBatch {
   nook_model_s& model;
   SceneSettings settings;
@@ -104,9 +104,9 @@ struct PoseBatch {
 // Consecutive poses, which one job evaluates.
 struct PoseRun {
   std::uint32_t begin = 0, end = 0;
-  std::array<PoseNotes, 3> notes;  // for each topic, the notes of the first pose that has one
-  std::exception_ptr failure;      // the failure of the pose at `begin`; `begin` is incremented after each
-                                   // pose that succeeds
+  std::array<PoseNotes, 3> notes;  // for each topic, the notes of the first pose to which the topic applies
+  std::exception_ptr failure;      // the failure of the pose at `begin`, if any; `begin` is incremented after
+                                   // each pose that succeeds
 };
 
 // Stores the notes, so that they can be logged later. Jobs must not log, because the host may not expect log
@@ -126,7 +126,8 @@ std::size_t batch_stride(const CharacterModel& model, PoseSource source, std::si
   return checked_stride("pose_stride", pose_stride, pose_count, source.stride * source.given_count);
 }
 
-// Divides the poses into a few long runs, because each run needs its own scene.
+// Returns the number of runs into which the poses are divided. It is small, because each run needs its own
+// scene.
 std::uint32_t run_count(const Parallel& parallel, std::uint32_t pose_count) {
   constexpr std::uint32_t min_poses = 8, max_runs = 64;
   return parallel.run ? std::clamp(pose_count / min_poses, 1u, max_runs) : 1;
@@ -150,8 +151,8 @@ void evaluate_run(const PoseBatch& batch, PoseRun& run, nook::Memory* memory) {
   }
 }
 
-// If a pose was refused, throws the failure of the first such pose. The message also contains the index of
-// this pose.
+// If some poses failed, throws the failure of the first one. The message also contains the index of this
+// pose.
 void rethrow_first(std::span<const PoseRun> runs) {
   for (const PoseRun& run : runs) try {
       if (run.failure) std::rethrow_exception(run.failure);

@@ -51,7 +51,7 @@ void check_host_weights(const HostWeights& host, std::uint32_t count, std::size_
             "desc.weights[%u] of vertex %u is out of range (got %g, need a finite number, 0 or more)", k, i,
             double(weight));
       // Engines leave arbitrary joint indices where the weight is 0, so these are not checked. The first
-      // joint is checked, because a vertex without weights follows it.
+      // joint is always checked, because a vertex without weights follows its first joint.
       if ((weight > 0 || k == 0) && host.joint_at(i, k) >= joints)
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                       "desc.joints[%u] of vertex %u is out of range (got %u, need less than %zu, the number "
@@ -103,7 +103,7 @@ HostVertices host_vertices(const CharacterModel& model, const nook_vertex_match_
   return host;
 }
 
-// Returns advice for the caller: the additional data that could distinguish vertices at the same place.
+// Returns a hint for the message: which additional data could distinguish vertices at the same place.
 const char* missing_evidence(const nook_vertex_match_desc& match, bool has_triangles) {
   if (!match.normals) return "also set desc.normals";
   if (!match.joints) return "also set desc.joints and desc.weights";
@@ -140,7 +140,7 @@ void check_indices(const uint32_t* indices, size_t count, std::uint32_t vertices
                     indices[i], vertices);
 }
 
-// `call` is the name of the function for the log.
+// `call` is the name of the C function, for the log.
 void match(const nook_model_s& model, const nook_vertex_match_desc& match, const HostVertices& host,
            const char* call, uint32_t* vertices, nook_vertex_match_info* info) {
   const VertexMatches matches =

@@ -15,6 +15,6 @@ struct nook_clips_s : Meter, nook::LoadedClips {
       : Meter(made_by->memory()), LoadedClips(make(&metered), std::move(of), &metered), context(made_by) {}
 
   nook_context_s* context;                 // kept alive by this object's owner reference
-  std::atomic<std::uint32_t> reported{0};  // topics of PoseNotes already reported, for poses and capsules
-                                           // that were read
+  std::atomic<std::uint32_t> reported{0};  // topics of PoseNotes that were already logged, for the functions
+                                           // that read poses and capsules
 };

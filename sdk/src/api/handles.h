@@ -17,7 +17,7 @@ struct nook_context_s final : nook::Context {
   nook::transfer::FitCache lobe_fits{memory()};
 
  private:
-  // The memory of this object comes from the allocator that the object contains. So destroy first copies the
+  // This object contains the allocator from which its own memory comes. So `destroy` first copies the
   // allocator, and then frees the memory with the copy.
   void destroy() noexcept override {
     nook::HostMemory memory(allocator());
@@ -26,7 +26,7 @@ struct nook_context_s final : nook::Context {
   }
 };
 
-// A base class, so that the meter is destroyed after the arrays of the derived object.
+// The meter is in a base class, so that it is destroyed after the arrays of the derived object, which use it.
 struct Meter {
   explicit Meter(nook::Memory* source) noexcept : metered(source) {}
   nook::MeteredMemory metered;
@@ -55,7 +55,8 @@ struct nook_scene_s : Meter, nook::RefCounted {
       : Meter(made_by->memory()), context(made_by), scene(settings, made_by->parallel(), &metered) {}
 
   nook_context_s* context;  // kept alive by this object's owner reference
-  // True after the host destroyed the scene. Data that other objects keep for the scene is invalid then.
+  // True after the host destroyed the scene. Data that other objects still keep for the scene must then not
+  // be used.
   std::atomic<bool> destroyed{false};
   nook::Scene scene;
 };

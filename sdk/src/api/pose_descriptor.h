@@ -7,8 +7,8 @@
 
 namespace nook::api {
 
-// Converts the caller's descriptor. Throws Failure for mistakes that can be found without reading the
-// transforms. check_pose_source finds the other mistakes.
+// Converts the caller's descriptor. Throws Failure for invalid fields, without reading the transforms.
+// check_pose_source makes all other checks.
 PoseSource source_of(const CharacterModel& model, const nook_pose_desc* given);
 
 }  // namespace nook::api

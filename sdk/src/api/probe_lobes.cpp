@@ -40,7 +40,7 @@ SphericalGaussian from_public(const nook_lobe& lobe, std::size_t index) {
   return g;
 }
 
-// Checks the caller's lobes and holds them.
+// Checks the caller's lobes, and stores a converted copy.
 class Lobes {
  public:
   Lobes(const nook_lobe* lobes, std::uint32_t count) : count_(count) {

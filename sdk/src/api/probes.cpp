@@ -121,8 +121,8 @@ Probes probes_of(const nook_probe_desc& desc, nook::Memory* memory) {
 }
 
 // Returns true if the probes have no separate amplitudes for glossy reflection, and some amplitudes of their
-// light are negative. Glossy reflection must then use these amplitudes. This occurs in files of older
-// versions.
+// light are negative. Glossy reflection must then use the amplitudes of the light. Files of older versions
+// can contain such probes.
 bool lacks_gloss(const Probes& probes) {
   return probes.basis.kind == BasisKind::gaussians && !probes.has_gloss() &&
          std::any_of(probes.coefficients.begin(), probes.coefficients.end(), [](Vec3 v) {

@@ -21,8 +21,8 @@ nook_result with_instance(const char* function, nook_scene scene, nook_instance_
   });
 }
 
-// Writes the number of entries to *count. Returns true if the caller also wants the entries, and has passed
-// enough room for them.
+// Writes the number of entries to *count. Returns true if the caller has also passed memory for the entries.
+// Throws Failure if the memory is too small.
 bool wants_entries(const void* out, std::uint32_t* count, std::uint32_t entries) {
   need(count, "count");
   const std::uint32_t room = *count;

@@ -18,9 +18,9 @@ inline Vec3 vector_of(const float (&v)[3]) {
 // name.
 void check_props(const char* descriptor, const nook_capsule* props, std::uint32_t count);
 
-// Converts lobes to terms. If `turn` is not NULL, it rotates the axes of the lobes; `turn` is column-major,
-// with four floats per column. Without lobes, the light is constant. Throws Failure unless every lobe is
-// valid. The message begins with the descriptor's name.
+// Converts lobes to light terms. If `turn` is not NULL, the axes of the lobes are rotated by this matrix,
+// which is column-major and has four floats per column. Without lobes, the light is constant. Throws Failure
+// unless every lobe is valid. The message begins with the descriptor's name.
 world::LightTerms terms_of_lobes(const char* descriptor, const nook_lobe* lobes, std::uint32_t count,
                                  const float* turn = nullptr);
 
@@ -44,7 +44,7 @@ class Casting {
   // If a group is a body, returns its parts. Otherwise returns NULL. The result is valid until the next call.
   const world::CasterParts* parts(std::uint32_t index) const;
   // A callback for world::CasterGroups; `user` must point to a Casting. Occluders and props have infinite
-  // strength, so no call skips them.
+  // strength, so they are never skipped.
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
 
  private:

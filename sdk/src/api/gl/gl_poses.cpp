@@ -56,12 +56,13 @@ PoseSource checked_source(const CharacterModel& model, const nook_gl_poses& pose
         stride, bytes);
   constexpr std::size_t most = std::size_t{1} << 30;
   check_at_most("poses.pose->stride", static_cast<std::uint32_t>(std::min(stride, most + 4)), most);
-  // check_pose_source requires a pointer to transforms on the CPU, so pass a pointer that is not null.
+  // check_pose_source requires a pointer to transforms on the CPU, but does not read from it. So any pointer
+  // that is not null is enough.
   constexpr float somewhere = 0;
   source.transforms = &somewhere;
   source.stride = 0;
   check_pose_source(model, source);
-  // If a bone has no transform, the whole call fails.
+  // Throws Failure if a bone has no transform.
   for_each_transform(model, source, [](std::size_t, std::uint32_t) {});
   source.transforms = nullptr;
   source.stride = stride;

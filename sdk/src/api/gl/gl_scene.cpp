@@ -35,7 +35,8 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
         NOOK_ERROR_INVALID_ARGUMENT,
         "target.buffer and target.texture are %u and %u; set exactly one of them, and leave the other 0",
         target.buffer, target.texture);
-  // Larger than any buffer, but so small that sums of offsets do not overflow 64 bits.
+  // Upper limit for offsets. It is larger than any buffer, but so small that sums of offsets do not overflow
+  // 64 bits.
   constexpr std::uint64_t max_offset = std::uint64_t{1} << 40;
   if (target.offset > max_offset || target.instance_stride > max_offset || count > (1u << 20))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

@@ -36,7 +36,7 @@ void update_vectors(nook_gl_s& gl, gl::TransferTexture& texture, const float* ve
                     std::uint64_t float_count) {
   check_count(float_count, texture.float_count());
   gl.device.report_host_errors();
-  // The conversion is safe: a texture with exactly this many floats exists, so the count fits into size_t.
+  // This conversion cannot overflow, because a texture with exactly this many floats exists.
   const auto count = static_cast<std::size_t>(float_count);
   gl.guarded(gl::probe_users(gl.device.gl), [&] { texture.update({vectors, count}); });
 }

@@ -51,7 +51,8 @@ nook_world_desc checked(const nook_world_desc* given) {
   return desc;
 }
 
-// Returns the frame in the form that the screen pass takes. Fields that this pass does not read get defaults.
+// Returns the frame in the form that the screen-space pass uses. Fields that the world pass does not use get
+// defaults.
 gl::NnaoFrame screen_of(const nook_gl_frame_desc* given, const nook_world_frame_desc& desc,
                         const nook_world_desc& pass) {
   gl::NnaoFrame screen{read_descriptor(given), default_desc<nook_nnao_frame_desc>()};
@@ -98,7 +99,8 @@ void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool co
   drawn.cone = gl::LightCone{axis, api::half_angle_radians(desc.light_degrees), reach};
 }
 
-// The groups of casters in the scene, and the cut-off that limits the distance at which they matter.
+// The groups of casters in the scene, and the cut-off error. A group is ignored at distances where it reduces
+// AO by less than this error.
 struct Reaching {
   const api::Casting* casting;
   float cutoff_error;

@@ -21,11 +21,11 @@ gl::NnaoSettings checked_nnao_desc(const nook_nnao_desc* given);
 // Returns the caller's descriptors of a frame in this library's version, unchecked.
 gl::NnaoFrame read_nnao_frame(const nook_gl_frame_desc* frame, const nook_nnao_frame_desc* desc);
 
-// Returns the bytes of the network file. If the host gave none, returns the embedded network.
+// Returns the bytes of the network file. If the host has passed no network, returns the embedded network.
 std::span<const std::byte> network_bytes(const nook_nnao_desc& desc);
 
-// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if a network of this form lacks something that the descriptor
-// needs.
+// Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if the descriptor needs a feature that networks of this form do
+// not have.
 void check_form(const nook_nnao_desc& desc, nnao::NetworkForm form);
 
 }  // namespace nook::api

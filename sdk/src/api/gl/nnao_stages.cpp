@@ -28,8 +28,8 @@ struct nook_nnao_stages_s : RefCounted {
 
 namespace {
 
-// Returns the checked frame, without textures and target. In the stage interface, the host binds these with
-// its own graphics API.
+// Returns the checked frame, without textures and target. Hosts of the stage interface bind textures and
+// target with their own graphics API.
 gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_frame_desc* settings,
                             const nook_nnao_desc& desc) {
   gl::NnaoFrame frame = read_nnao_frame(given, settings);
@@ -46,8 +46,8 @@ gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_fra
                   "debug.show %d is not available with desc.max_history_frames %d; read NOOK_NNAO_IMAGE_AO",
                   frame.show, desc.max_history_frames);
   frame.blend = blend;
-  // The host's texture format is not known here. But if the bias is not 0, the format must be a normalised
-  // integer format.
+  // The format of the host's normal texture is not known here. A normal_bias other than 0 is only useful for
+  // formats with normalised integers, so it tells the kind of format.
   frame.normalised_normals = frame.normal_bias != 0;
   return frame;
 }

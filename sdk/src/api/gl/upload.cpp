@@ -27,7 +27,7 @@ void put(nook_gl_upload_info& info, GLenum target, GLuint texture, const char* u
   info.textures[info.texture_count++] = {target, texture, uniform};
 }
 
-// Fills the info, with one function for each kind of content.
+// Fills nook_gl_upload_info. There is one function for each kind of content.
 struct Describe {
   const gl::Device& device;
   nook_gl_upload_info& info;
@@ -104,7 +104,7 @@ const char* kind_of(std::string_view uniform) {
   return "a material";
 }
 
-// Throws the Failure for a program without any sampler of this upload. If the program has a sampler of
+// Throws the Failure for a program that has no sampler of this upload. If the program has a sampler of
 // another kind of upload, the message names it.
 [[noreturn]] void fail_kind(const gl::Functions& gl, GLuint program, const nook_gl_upload_info& info) {
   for (const Mark& mark : marks)
