@@ -25,17 +25,18 @@ enum class ObjectKind {
 };
 
 struct Device {
-  // Reads limits; the OpenGL context must be current. Throws Failure.
+  // Reads the limits of the OpenGL context, which must be current. Throws Failure.
   Device(Context& host, const nook_gl_desc& desc);
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
   ~Device();
 
-  // Logs and clears OpenGL errors that the host has left, so that later errors are known to be Nook's.
+  // Logs and clears errors that the host's OpenGL calls have caused. After that, errors can only come from
+  // Nook's calls.
   void report_host_errors() const;
-  // Throws Failure if OpenGL has reported an error. The message names the action `what`.
+  // Throws Failure if OpenGL has reported an error. `what` is the action that failed, for the message.
   void check(const char* what) const;
-  // Throws Failure if the OpenGL context was lost, or if need_current throws.
+  // Throws Failure if the OpenGL context was lost. Also calls need_current.
   void need_alive() const;
   // If nook_gl_desc.debug is set, throws Failure unless the OpenGL context that was current in nook_gl_create
   // is current.
@@ -44,10 +45,11 @@ struct Device {
   // must not be deleted. They leak, and a message in the log reports this once.
   bool may_delete() const;
   // Call adopt for every OpenGL name that Nook creates, and remove for every name that it deletes. While a
-  // call holds a StateGuard, remove defers the deletion until the host's state is restored. When the object
-  // is then deleted, OpenGL unbinds it wherever the host has bound it. If remove deleted the object earlier,
-  // the guard could not restore these bindings. adopt reserves the memory that remove needs, so that removing
-  // never allocates. If adopt cannot reserve this memory, it deletes the name and throws std::bad_alloc.
+  // call holds a StateGuard, remove defers the deletion until the host's state is restored. At that time,
+  // deleting the object also removes the bindings that the host has made to it. If the object were deleted
+  // earlier, the guard would try to restore bindings to an object that no longer exists. adopt reserves the
+  // memory that remove needs, so that removing never allocates. If adopt cannot reserve this memory, it
+  // deletes the name and throws std::bad_alloc.
   void adopt(ObjectKind kind, GLuint name);
   void remove(ObjectKind kind, GLuint name) noexcept;
   void begin_call() { ++calls_; }
@@ -68,7 +70,7 @@ struct Device {
   // The maximum size of a buffer range that is bound at once: the limit of the context, but at most 128 MiB.
   std::uint64_t max_piece_bytes = std::uint64_t{128} << 20;
   std::uint64_t storage_alignment = 256;  // bytes
-  std::uint32_t max_texels = 65536;       // in a table of texels
+  std::uint32_t max_texels = 65536;       // maximum number of texels in a table of texels
 
  private:
   void read_limits();
@@ -82,12 +84,12 @@ struct Device {
     ObjectKind kind;
     GLuint name;
   };
-  Vector<Removed> removed_;  // with room for all objects
+  Vector<Removed> removed_;  // has reserved memory for all adopted objects
   std::size_t object_count_ = 0;
   int calls_ = 0;  // number of calls that hold a StateGuard
 
-  // A vertex array that stores a unique number. Contexts do not share vertex arrays, so it identifies this
-  // context.
+  // A vertex array that stores a unique number. Contexts do not share vertex arrays, so the number identifies
+  // this context.
   GLuint marked_array_ = 0;
   mutable bool told_objects_left_ = false;
 };

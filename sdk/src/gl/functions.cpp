@@ -22,8 +22,8 @@ class Loader {
   void optional(F& function, const char* name) const {
     function = reinterpret_cast<F>(get_proc_(user_, name));
   }
-  // `version` is for the message. It names the version or extension that has the function, such as "OpenGL
-  // 3.3".
+  // Loads a function. `version` is the version or extension that contains the function, such as "OpenGL 3.3",
+  // for the message.
   template <class F>
   void required(F& function, const char* name, const char* version) const {
     optional(function, name);
@@ -64,7 +64,8 @@ void check_version(const Functions& gl) {
 void read_version(Functions& gl) {
   gl.profile = profile_of(gl);
   if (gl.profile == Profile::es) {
-    // In OpenGL ES 2.0, the query would cause an error, which the host would find later.
+    // The query of the version would cause an error in OpenGL ES 2.0, and the host would find this error
+    // later. So the text is checked first.
     const char* const number = std::strstr(reinterpret_cast<const char*>(gl.GetString(GL_VERSION)), "ES 2.");
     if (number) gl.version = 20 + (number[5] - '0');
     if (number) return;
@@ -88,8 +89,8 @@ bool has_extension(const Functions& gl, const Loader& loader, const char* name) 
   return false;
 }
 
-// Needed for WebGL, where the list of extensions contains all extensions that a page could enable. The list
-// of compressed formats contains only formats of extensions that the page has enabled.
+// This test is for WebGL. There, the list of extensions also contains extensions that the page has not
+// enabled. But the list of compressed formats contains only formats of enabled extensions.
 bool lists_compressed_format(const Functions& gl, GLenum format) {
   GLint count = 0;
   gl.GetIntegerv(GL_NUM_COMPRESSED_TEXTURE_FORMATS, &count);

@@ -1,6 +1,6 @@
-// The OpenGL functions that Nook calls. There is one list for each tier, and one table of pointers for each
-// context, which is filled by the host's loader. glad provides only types and constants. The loader of glad
-// is not linked, so Nook contains no symbols and no global variables of glad.
+// The OpenGL functions that Nook calls. There is a list of functions for each tier, and a table of pointers
+// for each context. The host's loader fills the table. glad provides only types and constants. The loader of
+// glad is not linked, so Nook contains no symbols and no global variables of glad.
 #pragma once
 
 #include <glad/gl.h>
@@ -177,13 +177,14 @@ struct Abilities {
   bool texture_buffers = false;   // if false, tables of texels are 2D textures
   bool maps = false;              // buffers can be mapped; if false, writes copy
   bool buffer_reads = false;      // glGetBufferSubData; if false, reads map the buffer
-  bool indexed_feedback = false;  // draws with indices during transform feedback, which ES forbids before 3.2
+  bool indexed_feedback = false;  // draws may use indices during transform feedback, which OpenGL ES forbids
+                                  // before 3.2
   bool norm16_targets = false;    // GL_RG16 can be drawn into
   bool r8_images = false;         // compute shaders write GL_R8
   bool texture_sizes = false;     // glGetTexLevelParameteriv
   bool sample_textures = false;   // GL_TEXTURE_2D_MULTISAMPLE
   bool sample_arrays = false;     // GL_TEXTURE_2D_MULTISAMPLE_ARRAY
-  bool timestamps = false;        // glQueryCounter, and fences that tell when its results are available
+  bool timestamps = false;        // glQueryCounter, and fences that show when its results are available
   bool indexed_draw_buffers = false;  // each draw buffer has its own blending and colour mask
   bool indexed_viewports = false;     // each viewport has its own rectangle and scissor test
   bool desktop_raster =
@@ -199,12 +200,12 @@ struct Functions {
   NOOK_GL_FUNCTIONS_ALL(NOOK_X)
 #undef NOOK_X
   Profile profile = Profile::desktop;
-  int version = 0;  // of the context, 10 * major + minor
+  int version = 0;  // version of the context, 10 * major + minor
   Abilities can;
   bool limited_by_host = false;  // the context has compute shaders, but max_tier excludes them
 };
 
-// The values of nook_gl_info.tier.
+// Returns the value of nook_gl_info.tier.
 int tier_of(const Functions& gl);
 // Returns "OpenGL" or "OpenGL ES", for messages.
 const char* api_name(const Functions& gl);
@@ -213,7 +214,7 @@ const char* api_name(const Functions& gl);
 // that is too low. If `debug` is true, the functions for nook_gl_desc.debug are loaded too.
 Functions load_functions(nook_gl_proc_fn get_proc, void* user, int max_tier, bool debug);
 
-// Reads and sets single pieces of OpenGL state for the guard.
+// Small functions with which the state guard reads and sets OpenGL state.
 
 inline GLint integer(const Functions& gl, GLenum name) {
   GLint value = 0;

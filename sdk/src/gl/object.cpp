@@ -32,14 +32,14 @@ Buffer::~Buffer() {
   device_->remove(ObjectKind::buffer, name_);
 }
 
-// Allocates a new store of at least this many bytes for the buffer.
+// Allocates new storage of at least `bytes` bytes for the buffer. The old contents are lost.
 void Buffer::renew(std::uint64_t bytes) {
   const Functions& gl = device_->gl;
   gl.BindBuffer(GL_ARRAY_BUFFER, name_);
   // If the buffer has to grow, it allocates 50 % more, so that a growing scene rarely reallocates.
   const std::uint64_t kept = bytes > bytes_ ? bytes + bytes / 2 : bytes_;
-  // A new store is necessary: with GL_MAP_INVALIDATE_BUFFER_BIT alone, Mesa's softpipe would keep using
-  // cached texels of the old contents.
+  // New storage is necessary. If the buffer were only mapped with GL_MAP_INVALIDATE_BUFFER_BIT, Mesa's
+  // softpipe driver would still use cached texels of the old contents.
   gl.BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(kept), nullptr, gl_usage_);
   device_->buffer_bytes += kept - bytes_;
   bytes_ = kept;

@@ -44,8 +44,8 @@ class Buffer {
     fail_write(bytes);
   }
   // Replaces the contents by the caller's memory. Use it for buffers that a texture reads, because NVIDIA's
-  // driver does not wait here. The call does not report failures, because an update does not query OpenGL
-  // errors. The host sees the error when it queries OpenGL errors.
+  // driver does not wait here. The call does not report failures, because it does not query OpenGL errors, to
+  // keep updates fast. If it fails, the host finds the error when it queries OpenGL errors itself.
   void send(std::uint64_t bytes, const void* data);
 
  private:
@@ -119,7 +119,7 @@ class FeedbackTarget {
 
  private:
   Object framebuffer_, renderbuffer_;
-  Object feedback_;  // its name is 0 before OpenGL 4.0
+  Object feedback_;  // its name is 0 if OpenGL is older than 4.0
 };
 
 }  // namespace nook::gl

@@ -33,8 +33,8 @@ void query_program(const Functions& gl, SavedState& s) {
   s.program = integer(gl, GL_CURRENT_PROGRAM);
 }
 void restore_program(const Functions& gl, const SavedState& s) {
-  // If the host had deleted the program while it was current, OpenGL freed it when Nook made its own program
-  // current. So it cannot be restored.
+  // The host may have deleted its program while it was current. OpenGL then freed the program when Nook made
+  // its own program current, so it cannot be restored.
   const bool gone = s.program != 0 && !gl.IsProgram(s.program);
   gl.UseProgram(gone ? 0 : s.program);
 }
@@ -60,8 +60,8 @@ void restore_active_texture(const Functions& gl, const SavedState& s) {
   gl.ActiveTexture(s.active_texture);
 }
 
-// The next two items are about unit 0, regardless of the active unit. The item above restores the active
-// unit.
+// The next two items are bindings of unit 0, whatever the active unit is. The active unit is restored by the
+// item above.
 void query_texture_unit_0(const Functions& gl, SavedState& s) {
   gl.ActiveTexture(GL_TEXTURE0);
   s.texture_unit_0 = integer(gl, gl.can.texture_buffers ? GL_TEXTURE_BINDING_BUFFER : GL_TEXTURE_BINDING_2D);
@@ -283,7 +283,7 @@ StateGuard::~StateGuard() {
   if (device_.state_mode != NOOK_GL_STATE_HOST) {
     restore_all(gl, users_, saved_);
   } else if (users_ & tier_33) {
-    // If these two stayed enabled, the host's next draw would be invisible or broken.
+    // If these two capabilities stayed enabled, the host's next draw would be invisible or wrong.
     gl.Disable(GL_RASTERIZER_DISCARD);
     set_primitive_restart(gl, false);
   }

@@ -114,9 +114,9 @@ void set_primitive_restart(const Functions& gl, bool enabled);
 // Sets blending, masks, tests and capabilities so that a triangle fills the viewport without side effects.
 void set_plain_drawing(const Functions& gl);
 
-// While a guard exists, passes may change any state in touched_state.h. Objects that passes delete in this
-// time are really deleted only after the state has been restored. Transform feedback must end before the
-// guard is destroyed.
+// While a guard exists, passes may change any state in touched_state.h. If passes delete objects during this
+// time, the guard deletes them after it has restored the state. Transform feedback must end before the guard
+// is destroyed.
 class StateGuard {
  public:
   // `users` selects the items of NOOK_GL_TOUCHED_STATE.

@@ -43,7 +43,7 @@ void TexelTable::replace(Device& device, GLenum format, std::uint64_t texels, co
 }
 
 void TexelTable::make_texture_buffer(Device& device, std::uint64_t texels, const float* data, GLenum usage) {
-  // The texture reads the new buffer but keeps its name, because the host may have bound this name.
+  // The host may have bound the texture, so the texture keeps its name and only its buffer is replaced.
   Buffer buffer(device, label_, texels * bytes_of_texel(), data, usage);
   if (!made()) texture_ = Object::make(device, Object::Kind::texture);
   bind(device);

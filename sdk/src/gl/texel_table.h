@@ -74,7 +74,7 @@ class TexelTable {
   const char* label_ = "";
   std::uint64_t capacity_ = 0;  // texels
   Buffer buffer_;               // used if the table is a texture buffer
-  Vector<std::byte> staging_;   // memory that fill writes if the table is a 2D texture
+  Vector<std::byte> staging_;   // memory for `fill` if the table is a 2D texture
   Object texture_;
 };
 

@@ -8,12 +8,12 @@
 
 namespace nook::gl {
 
-// The users of an item of state, which are the parts of Nook that change it. Characters have one user for
-// each tier. Uploads have one user for each kind: probes and materials, grids, clips, captures of probes, and
-// the binding of uploads. The screen-space pass has several users: the pass itself, reading its timers, a
-// network in a compute shader, nook_nnao_desc.views, nook_nnao_desc.depth_samples, and both of these
-// together. Two more users are writing AO to the host's buffers and textures, and recording frames. The last
-// user is the upload of tables of texels, which are 2D textures on OpenGL ES.
+// A user is a part of Nook that changes OpenGL state. Each item of state has a mask of its users. Characters
+// have one user for each tier. Uploads have one user for each kind: probes and materials, grids, clips,
+// captures of probes, and the binding of uploads. The screen-space pass has several users: the pass itself,
+// the code that reads its timers, a network in a compute shader, passes with nook_nnao_desc.views, passes
+// with nook_nnao_desc.depth_samples, and passes with both. Two more users write AO to the host's buffers and
+// textures, and record frames. The last user uploads tables of texels, which are 2D textures on OpenGL ES.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,

@@ -70,8 +70,8 @@ void AoOutput::make_draw_objects() {
   gl.EnableVertexAttribArray(0);
 }
 
-// Each vertex of a draw writes one word. The last word may have fewer values. It is drawn separately, so that
-// nothing beyond the source is read.
+// In a draw, each vertex of the draw packs one word. If the last word has fewer values, it is drawn
+// separately, so that nothing beyond the end of the source is read.
 void AoOutput::write_packed(const VertexValues& source, const BufferTarget& target) {
   const Functions& gl = device_.gl;
   Object& program = packing_[static_cast<std::size_t>(target.format)];
@@ -97,8 +97,8 @@ void AoOutput::write_packed(const VertexValues& source, const BufferTarget& targ
   };
   draw(0, whole, each);
   draw(whole, 1, source.vertices - whole * each);
-  // Afterwards, the vertex array must not refer to the buffer of the host or of a chunk. Otherwise it would
-  // keep a deleted buffer alive.
+  // Removes the host's or chunk's buffer from the vertex array. Otherwise the vertex array would keep the
+  // buffer alive after its deletion.
   FeedbackTarget::end(device_);
 }
 
@@ -111,7 +111,7 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
   Object& program = strided_[static_cast<std::size_t>(target.format)];
   if (!program.name())
     program = compute_program(device_, "character/pack_strided.comp", PackDefines(target.format).text);
-  // OpenGL binds ranges of storage buffers only at multiples of this alignment.
+  // OpenGL requires that a bound range of a storage buffer starts at a multiple of this alignment.
   const std::uint64_t alignment = device_.storage_alignment;
   const std::uint64_t source_begin = source.offset / alignment * alignment;
   const std::uint64_t target_begin = target.offset / alignment * alignment;
@@ -229,7 +229,7 @@ void AoOutput::write_rows(const VertexValues& source, const TextureTarget& targe
   PixelStore tight;
   tight.values[0] = 1;
   set_pixel_store(gl, tight);
-  // Writes the rest of the first row, then whole rows, then the beginning of the last row.
+  // First writes the remaining part of the first row, then whole rows, then the beginning of the last row.
   std::uint32_t written = 0;
   while (written < source.vertices) {
     const std::uint64_t texel = target.first_texel + written;

@@ -1,5 +1,4 @@
-// Copies AO on the GPU to where a host wants it: its own buffer, in numbers of 32, 16 or 8 bits, or a
-// texture.
+// Copies AO on the GPU to the host's own buffer, as values of 32, 16 or 8 bits, or to the host's texture.
 #pragma once
 
 #include <nook/nook_gl.h>
@@ -20,22 +19,22 @@ struct BufferTarget {
 
 struct TextureTarget {
   GLuint texture = 0;
-  std::uint64_t first_texel = 0;           // row by row
-  std::uint32_t width = 0;                 // texels; 0: query it
-  nook_format format = NOOK_FORMAT_FLOAT;  // of the texture; only OpenGL ES needs it
+  std::uint64_t first_texel = 0;           // index of the first texel to write, counted row by row
+  std::uint32_t width = 0;                 // width of the texture in texels; 0: query it from OpenGL
+  nook_format format = NOOK_FORMAT_FLOAT;  // format of the texture; only used on OpenGL ES
 };
 
-// Returns the bytes of tightly packed values, rounded up to whole words.
+// Returns the size of tightly packed values in bytes, rounded up to whole words.
 std::uint64_t packed_bytes(nook_format format, std::uint32_t values);
 
-// Makes the program for each kind of target when it is first written. The caller must hold a StateGuard for
-// output_users.
+// Compiles the program for a kind of target when a target of this kind is written for the first time. The
+// caller must hold a StateGuard for output_users.
 class AoOutput {
  public:
   explicit AoOutput(Device& device) : device_(device) {}
 
-  // Both throw Failure if the target is not a buffer or texture, or too small; UNSUPPORTED for a stride
-  // without compute shaders.
+  // Both functions throw Failure if the target is not a buffer or texture, or is too small. They throw
+  // Failure(UNSUPPORTED) if a stride is given and the context has no compute shaders.
   void write(const VertexValues& source, const BufferTarget& target);
   void write(const VertexValues& source, const TextureTarget& target);
 
@@ -48,14 +47,14 @@ class AoOutput {
   static constexpr int format_count = 3;
 
   Device& device_;
-  std::array<Object, format_count> packing_;  // programs, by format
+  std::array<Object, format_count> packing_;  // programs, one for each format
   std::array<Object, format_count> strided_;
   Object vertex_array_;
   FeedbackTarget feedback_;
-  Buffer packed_;  // for textures on OpenGL ES
+  Buffer packed_;  // packed values before they are copied to a texture; only used on OpenGL ES
 };
 
-// Returns the users of touched state that a write has.
+// Returns the users (touched_state.h) whose OpenGL state a write changes.
 unsigned output_users(const Functions& gl);
 
 }  // namespace nook::gl

@@ -19,7 +19,8 @@ void CharacterGl::prepare(const SceneHandle& handle) {
   // The other tier updates key points on the CPU.
   if (!computes) make_arrays(*handle.scene);
   tier_->prepare(*handle.scene);
-  // If it failed, the host can still update on the CPU without an allocation.
+  // The arrays are released only after the preparation has succeeded. If it fails, the host can still update
+  // on the CPU without an allocation.
   if (computes && handle.scene->has_arrays) leave_arrays(*handle.scene);
 }
 

@@ -19,8 +19,8 @@ struct SceneHandle {
   Scene* scene = nullptr;
 };
 
-// The best tier of the device, and the scenes it evaluates. Tier says which functions may change touched
-// state.
+// The best tier of the device, and the scenes that it evaluates. tier.h documents which functions may change
+// OpenGL state.
 class CharacterGl {
  public:
   // Throws Failure.
@@ -35,7 +35,7 @@ class CharacterGl {
   VertexValues place(const Scene& scene, nook_instance_id instance) const;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const;
   void read(const VertexValues& values, float* out) const;
-  // Copies AO to the host's own buffers and textures, under a guard for output_users.
+  // Copies AO to the host's own buffers and textures. The caller must hold a StateGuard for output_users.
   AoOutput& output() { return output_; }
   ModelMemory memory_of(const LoadedModel& model) const { return tier_->memory_of(model); }
   void release(const Scene& scene);
@@ -45,7 +45,7 @@ class CharacterGl {
  private:
   List<SceneHandle> scenes_;
   std::variant<std::monostate, FeedbackTier, ComputeTier> storage_;
-  Tier* tier_;  // in storage_
+  Tier* tier_;  // points into storage_
   AoOutput output_;
 };
 

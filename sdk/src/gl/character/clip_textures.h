@@ -15,7 +15,8 @@ class ClipTextures {
   GLuint modes() const { return modes_.name(); }
   GLuint weights() const { return weights_.name(); }
   std::uint64_t bytes() const { return bytes_; }
-  // Returns the texels of a vertex and of a frame, for the uniform nook_clip_vec4s.
+  // Returns the number of texels for each vertex and for each frame. It is the value of the uniform
+  // nook_clip_vec4s.
   std::uint32_t vec4s() const { return vec4s_; }
 
  private:
@@ -24,7 +25,7 @@ class ClipTextures {
   std::uint32_t vec4s_ = 0;
 };
 
-// Returns the text for the host's shaders.
+// Returns the GLSL text for the host's shaders.
 const char* clips_glsl();
 
 }  // namespace nook::gl

@@ -13,7 +13,7 @@ static_assert(NOOK_RECORD_CLIPS_MASK << NOOK_RECORD_CLIPS_SHIFT ==
 
 using Words = Vector<std::uint32_t>;
 
-// Packs two numbers into each word. The first one is in the low bits.
+// Packs two 16-bit integers into each word, the first one into the low bits.
 void append_pairs(Words& out, const Vector<std::int16_t>& numbers) {
   const auto bits = [&](std::size_t i) {
     return i < numbers.size() ? std::uint32_t{static_cast<std::uint16_t>(numbers[i])} : 0u;
@@ -42,7 +42,8 @@ PlacedClips* find_clips(List<PlacedClips>& all, const LoadedClips* clips) {
   return nullptr;
 }
 
-// Returns the smallest number that no other clips of the model use. Throws Failure if all numbers are in use.
+// Shaders identify clips by a number that is unique for their model. Returns the smallest free number. Throws
+// Failure if all numbers are in use.
 std::uint32_t free_number(const List<PlacedClips>& all, const LoadedModel* model) {
   const auto is_taken = [&](std::uint32_t number) {
     return std::any_of(all.begin(), all.end(), [&](const PlacedClips& known) {

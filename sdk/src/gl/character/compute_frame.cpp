@@ -43,8 +43,8 @@ std::uint64_t aligned(const Device& device, std::uint64_t offset) {
   return (offset + device.storage_alignment - 1) / device.storage_alignment * device.storage_alignment;
 }
 
-// Places the arrays of a chunk's piece one after another. Throws Failure if OpenGL cannot bind a piece this
-// large.
+// A piece is the part of the stream buffer that belongs to one chunk. Computes the offsets of the arrays in
+// the piece. Throws Failure if the piece is too large to be bound by OpenGL.
 void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t casters, std::uint64_t lights) {
   ComputeChunk::Frame& frame = chunk.frame;
   const std::uint64_t bones = std::uint64_t{frame.selected} * NOOK_RECORD_UVEC4S;
@@ -62,8 +62,8 @@ void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t cast
   frame.lights = static_cast<std::uint32_t>(first_light);
 }
 
-// Throws Failure if this nook_gl does not have the pose of the instance. Then another nook_gl has the pose,
-// or this one has released it.
+// Throws Failure if the buffers of this nook_gl do not contain the pose of the instance. This happens if the
+// pose was set with another nook_gl, or if this nook_gl has released it.
 void need_pose(const ComputeChunk& chunk, const Placement<ComputeChunk>& placement,
                const Instance& instance) {
   if (chunk.posed_of[placement.place] != pose_of(instance))
@@ -138,8 +138,8 @@ std::uint32_t first_sphere(const ComputeScene& placed, std::uint32_t slot) {
   return placement.chunk->first_sphere + placement.place * placement.chunk->model->spheres();
 }
 
-// Writes the casters of an instance at index `next` and after it, at the receiver's level of detail. Stores
-// their index and count in the record.
+// Writes the casters of an instance from index `next` on. The casters have the receiver's level of detail.
+// Stores their index and count in the record.
 void write_casters(const ComputeScene& placed, const Instance& instance, Word4* piece, std::uint32_t& next,
                    InstanceRecord& record) {
   const Scene& scene = *placed.scene;
@@ -182,12 +182,12 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
         next_light += light_texels(instance.light);
       }
     }
-    // If the pose is on the GPU, pose_place.comp writes the bones.
+    // If the pose is on the GPU, pose_place.comp writes the bones later.
     if (instance.input.clip.is_late)
       write_clip(instance, piece + record.first_bone);
     else if (!instance.input.is_posed_on_gpu)
       write_pose(instance, reinterpret_cast<Mat3x4*>(piece + record.first_bone));
-    // Mapped memory may be slow to read, so the record is only copied to it.
+    // Mapped memory may be slow to read. So the record is completed in a local variable, and then copied.
     std::memcpy(static_cast<void*>(piece + NOOK_RECORD_UVEC4S * written++), &record, sizeof record);
   });
 }

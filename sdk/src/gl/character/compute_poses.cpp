@@ -19,7 +19,7 @@ Word4 floats(float x, float y, float z, float w) {
           bit_cast<std::uint32_t>(w)};
 }
 
-// Mapped memory may be slow to read, so values are only copied to it.
+// Copies a value to mapped memory, which may be slow to read and is only written.
 void put(Word4* at, const Word4& value) {
   std::memcpy(static_cast<void*>(at), &value, sizeof value);
 }
@@ -36,7 +36,8 @@ Vec3 centre_of(const nook_gl_instance_pose& pose) {
   return {pose.bound_centre_ws[0], pose.bound_centre_ws[1], pose.bound_centre_ws[2]};
 }
 
-// Returns true if bones without a transform keep matrices that are only on the CPU.
+// Returns true if the instance has bones without a transform, and the matrices that they keep are only on the
+// CPU. These matrices must be sent to the GPU.
 bool needs_seed(const PoseBatch& batch, const Instance& instance) {
   return batch.source.is_partial && !instance.input.is_posed_on_gpu;
 }
@@ -60,7 +61,8 @@ void check_place(const ComputeScene& placed, const PoseBatch& batch, const Insta
                   instance.id);
 }
 
-// Checks all instances, and counts the instances of each chunk. Throws Failure if one cannot get a pose.
+// Checks all instances, and counts the instances of each chunk. Throws Failure if the pose of an instance
+// cannot be set.
 void count_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batch) {
   ++placed.pose_calls;
   for (ComputeChunk& chunk : placed.chunks) chunk.poses = {};
@@ -76,8 +78,8 @@ void count_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batc
   }
 }
 
-// Gives each chunk its piece of the job buffer, and returns the size of the buffer in bytes. Throws Failure
-// if OpenGL cannot bind a piece this large.
+// Assigns a piece of the job buffer to each chunk, and returns the size of the buffer in bytes. Throws
+// Failure if a piece is too large to be bound by OpenGL.
 std::uint64_t lay_out_jobs(const Device& device, ComputeScene& placed) {
   std::uint64_t end = 0;
   for (ComputeChunk& chunk : placed.chunks) {
@@ -119,7 +121,7 @@ void write_bind(const CharacterModel& model, const PoseSource& source, Word4* pi
   });
 }
 
-// Writes the bones of a pose that is on the CPU, relative to the origin that the instance has there.
+// Writes the bones of a pose that is on the CPU. They are relative to the origin that belongs to that pose.
 void write_seed(const Instance& instance, Word4* at) {
   const Vec3 from = instance.input.bound.centre;
   for (const Mat3x4& bone : instance.input.bones) {

@@ -148,8 +148,8 @@ void ComputeTier::release(const Scene& scene) {
   drop_unused(models_);
 }
 
-// Runs each pass for all chunks before the next pass, because casters may be in any chunk. One barrier after
-// each pass is then enough.
+// Runs each pass for all chunks before it runs the next pass, because the casters of an instance may be in
+// any chunk. One barrier after each pass is then enough.
 void ComputeTier::run(const Update& update) const {
   const Functions& gl = device_.gl;
   place_poses(update);

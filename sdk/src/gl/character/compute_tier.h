@@ -1,4 +1,5 @@
-// The tier of OpenGL 4.3: spheres, shadows and vertices of a scene in compute shaders.
+// The tier for OpenGL 4.3 and OpenGL ES 3.1: compute shaders evaluate the spheres, shadows and vertices of a
+// scene.
 #pragma once
 
 #include "sdk/src/gl/character/compute_scene.h"
@@ -22,20 +23,20 @@ class ComputeTier final : public Tier {
   void release(const Scene& scene) override;
 
  private:
-  // Compiles the missing programs that the models and lights of the scene need.
+  // Compiles the programs that the models and lights of the scene need and that do not exist yet.
   void make_programs(const ComputeScene& placed);
-  // What the passes need to know about the scene's update.
+  // The data of the scene's update that the passes need.
   struct Update {
     const ComputeScene& placed;
-    bool composed;  // NOOK_FORM_DEFAULT
+    bool composed;  // true for NOOK_FORM_DEFAULT
   };
   void run(const Update& update) const;
-  // Brings poses on the GPU to where the passes read bones.
+  // Copies poses that are on the GPU to the stream, from which the passes read bones.
   void place_poses(const Update& update) const;
-  // Decodes the bones of clips there (compute_clips.cpp).
+  // Decodes the bones of clips into the stream (compute_clips.cpp).
   void decode_clips(const Update& update) const;
-  // Writes bones in each chunk whose `count` is above 0: binds the chunk's stream and calls `dispatch` for
-  // it. The passes that follow see the bones.
+  // For each chunk whose `count` is above 0, binds the chunk's stream and calls `dispatch`, which must write
+  // bones. The passes that follow see these bones.
   template <class Dispatch>
   void write_bones(const Update& update, const Object& program, std::uint32_t ComputeChunk::Frame::*count,
                    const Dispatch& dispatch) const {
@@ -58,7 +59,7 @@ class ComputeTier final : public Tier {
   void run_shadows(const Update& update) const;
   void run_spread(const Update& update) const;
   void run_vertices(const Update& update) const;
-  // The same for instances with a light.
+  // The next three functions are the passes for instances with a light.
   void run_colours(const Update& update) const;
   void run_colours_spread(const Update& update) const;
   void run_lit_vertices(const Update& update) const;
@@ -69,14 +70,14 @@ class ComputeTier final : public Tier {
   void convert_poses(const ComputeScene& placed, const PoseBatch& batch, const PoseWindows& windows) const;
 
   Object spheres_;
-  Object shadows_[kernel_form_count];  // name 0 until a model needs it
-  Object spread_;                      // name 0 until a model has levels of detail
+  Object shadows_[kernel_form_count];  // its OpenGL name is 0 until a model needs it
+  Object spread_;                      // its OpenGL name is 0 until a model has levels of detail
   Object vertices_;
-  Object colours_[kernel_form_count];  // name 0 until an instance has a light
+  Object colours_[kernel_form_count];  // its OpenGL name is 0 until an instance has a light
   Object colours_spread_;
   Object lit_vertices_, grey_vertices_;
-  Object convert_poses_, place_poses_;  // name 0 until a pose is on the GPU
-  Object decode_clips_;                 // name 0 until clips are on the GPU
+  Object convert_poses_, place_poses_;  // its OpenGL name is 0 until a pose is on the GPU
+  Object decode_clips_;                 // its OpenGL name is 0 until clips are on the GPU
   List<ComputeModel> models_;
   List<ComputeScene> scenes_;  // destroyed before the models that their chunks use
 };

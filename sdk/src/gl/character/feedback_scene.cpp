@@ -76,8 +76,8 @@ ModelMemory feedback_memory(const LoadedModel& loaded, bool indexed) {
   ModelMemory memory;
   memory.shared = indexed ? model.vertex_count() * stride + file_vertices * sizeof(std::uint32_t)
                           : file_vertices * stride;
-  // The values include the instance's part of a page, although the page stops growing at a million key
-  // points.
+  // The values include the share of a page that belongs to the instance. The real memory can be smaller,
+  // because a page stops growing at a million key points.
   memory.instance = file_vertices * sizeof(float) + key_points * 2 * sizeof(float);
   memory.light = file_vertices * 3 * sizeof(float) + key_points * NOOK_COLOUR_VEC4S * 4 * sizeof(float);
   return memory;
@@ -94,8 +94,9 @@ void FeedbackScene::make_shadow_page(Device& device) {
     texels += std::uint64_t{chunk.capacity} * chunk.model->key_points();
     largest = std::max<std::uint64_t>(largest, chunk.model->key_points());
   }
-  // If a page has a million texels (8 MB), the overhead per page is negligible. Key points have 16-bit
-  // indices. So even the 65,536 texels that every OpenGL supports are enough for one instance.
+  // With a million texels (8 MB) in a page, the overhead per page is negligible. A page must hold at least
+  // one instance. The 65,536 texels that every OpenGL supports are enough for this, because key points have
+  // 16-bit indices.
   constexpr std::uint64_t enough = 1 << 20;
   texels = std::max(largest, std::min({texels, std::uint64_t{device.max_texels}, enough}));
   shadows.reserve(device, GL_RG32F, texels, "nook: shadows");

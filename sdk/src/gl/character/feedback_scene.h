@@ -1,4 +1,4 @@
-// How the transform-feedback tier stores characters: models, which do not change, and scenes.
+// How the transform-feedback tier stores characters on the GPU: models, which do not change, and scenes.
 #pragma once
 
 #include "sdk/src/gl/character/placed_scene.h"
@@ -8,12 +8,12 @@
 namespace nook::gl {
 
 struct FeedbackModel : ModelData {
-  // Throws Failure: UNSUPPORTED if the model is beyond this OpenGL.
+  // Throws Failure. It is Failure(UNSUPPORTED) if the model exceeds the limits of this OpenGL.
   FeedbackModel(Device& device, Ref<const LoadedModel> loaded);
 
   std::uint32_t influence_quads() const { return (model->model.influences + 3) / 4; }
-  // Returns the largest number of bytes that one instance with a light takes in any buffer that is bound as
-  // one piece.
+  // For each buffer of a chunk that is bound as a whole, take the bytes that one instance with a light needs.
+  // Returns the largest of these sizes.
   std::uint64_t largest_share() const { return std::uint64_t{file_vertices()} * 3 * sizeof(float); }
 
   // Attributes of welded vertices, and the map from file order as an index buffer.
@@ -22,7 +22,8 @@ struct FeedbackModel : ModelData {
   Object vertex_array;
 };
 
-// Returns the sizes of the buffers of a model and of its instances. indexed: draws use indices.
+// Returns the sizes of the buffers of a model and of its instances. Pass true for `indexed` if draws use
+// indices.
 ModelMemory feedback_memory(const LoadedModel& model, bool indexed);
 
 // A scene in the transform-feedback tier: the AO of its instances, and pages that carry shadows at key points
@@ -40,7 +41,7 @@ struct FeedbackScene : PlacedScene<FeedbackChunk> {
   FeedbackScene(Device& device, const Scene& of)
       : PlacedScene(of, device.memory), shadows(device.memory), colours(device.memory) {}
 
-  // Makes all buffers for the assigned places. Throws Failure.
+  // Creates the buffers for all places that place_all has assigned to instances. Throws Failure.
   void make_buffers(Device& device);
   // Returns whether the AO in this place is due.
   bool waits(const FeedbackChunk& chunk, std::uint32_t place) const {
@@ -50,7 +51,8 @@ struct FeedbackScene : PlacedScene<FeedbackChunk> {
 
   // Pages are filled several times in an update, each time with as many whole instances as fit.
   TexelTable shadows;  // one texel for each key point
-  TexelTable colours;  // two texels by channel; none before the first light
+  TexelTable colours;  // two texels for each key point, with the values of each channel; created for the
+                       // first light
 
  private:
   void make_shadow_page(Device& device);

@@ -13,7 +13,7 @@ namespace {
 static_assert(CharacterModel::max_influences <= 8,
               "vertices.vert has attributes for two quads of influences");
 
-// Shadow and added occlusion, two floats for each key point.
+// A page with two floats for each key point: shadow and added occlusion.
 struct Shadows {
   static constexpr std::uint32_t floats = 2, texels = 1;
   static void write(const Scene& scene, const Instance& instance, float* out) {
@@ -26,8 +26,8 @@ struct Shadows {
   }
 };
 
-// Shadow and added occlusion of each channel, eight floats for each key point. Without a light, all channels
-// are equal.
+// A page with eight floats for each key point: shadow and added occlusion of each channel. For an instance
+// without a light, all channels are equal.
 struct Colours {
   static constexpr std::uint32_t floats = 8, texels = NOOK_COLOUR_VEC4S;
   static void write(const Scene& scene, const Instance& instance, float* out) {

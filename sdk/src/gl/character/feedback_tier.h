@@ -10,7 +10,7 @@ namespace nook::gl {
 
 class FeedbackTier final : public Tier {
  public:
-  // Also makes a framebuffer and a transform-feedback object. Throws Failure.
+  // Creates a framebuffer and a transform-feedback object. Throws Failure.
   explicit FeedbackTier(Device& device);
 
   void prepare(const Scene& scene) override;
@@ -28,7 +28,7 @@ class FeedbackTier final : public Tier {
     Object object;
     GLint first_key_point = -1, key_point_count = -1, self = -1;
   };
-  // Where values of vertices come from and where they go.
+  // The source and the destination of a draw.
   struct Target {
     const Program* programs;  // for one and two quads of influences
     TexelTable* page;
@@ -37,13 +37,14 @@ class FeedbackTier final : public Tier {
   };
   Program make_program(int quads, bool lit);
   void draw_scene(FeedbackScene& placed) const;
-  // Evaluates all waiting places of a chunk, as many at a time as a page holds.
+  // Evaluates all places of a chunk that are waiting. Each iteration evaluates as many places as fit into a
+  // page.
   template <class Kind>
   void draw_chunk(const FeedbackScene& placed, const FeedbackChunk& chunk, const Target& target) const;
-  // Draws the waiting places of [first, end); their shadows must be in the page in this order.
+  // Draws the places in [first, end) that are waiting. The page must contain their shadows in the same order.
   void draw_page(const FeedbackScene& placed, const FeedbackChunk& chunk, std::uint32_t first,
                  std::uint32_t end, const Program& program, const Target& target) const;
-  // Draws places [first, end) of a chunk, all evaluated in this update.
+  // Draws the places [first, end) of a chunk. All of them must be evaluated in this update.
   void draw(const FeedbackChunk& chunk, std::uint32_t first, std::uint32_t end, const Target& target) const;
 
   Device& device_;

@@ -15,9 +15,9 @@ struct LightTexel {
   float x, y, z, w;
 };
 
-// Returns the number of texels; 0 for an instance without light.
+// Returns the number of texels of a light; 0 if the instance has no light.
 std::uint32_t light_texels(const InstanceLight& light);
-// Writes that many texels.
+// Writes the texels of a light, whose number light_texels returns.
 void write_light(const Instance& instance, LightTexel* out);
 
 class LightTexture {
@@ -26,16 +26,17 @@ class LightTexture {
 
   static constexpr std::uint32_t no_light = UINT32_MAX;
 
-  // Makes the texture on the first call. Throws Failure.
+  // Creates the texture in the first call. Throws Failure.
   void make(Device& device);
   bool made() const { return table_.made(); }
-  // Makes room for the instances of the scene, so that upload does not allocate.
+  // Reserves memory for the instances of the scene, so that `upload` does not allocate.
   void resize(std::size_t slots) { first_texels_.resize(slots, no_light); }
-  // Sends all lights in the layout of shaders/character/light_layout.h. Throws Failure if OpenGL has no
+  // Uploads all lights in the layout of shaders/character/light_layout.h. Throws Failure if OpenGL has no
   // memory or if its texture buffer cannot hold them.
   void upload(Device& device, const Scene& scene);
 
-  // Returns where the last upload put the light of the instance in a slot, or no_light.
+  // Returns the first texel of the light that the last upload has stored for the instance in a slot, or
+  // no_light.
   std::uint32_t first_texel(std::size_t slot) const {
     return slot < first_texels_.size() ? first_texels_[slot] : no_light;
   }
@@ -43,10 +44,10 @@ class LightTexture {
 
  private:
   TexelTable table_;
-  Vector<std::uint32_t> first_texels_;  // by slot
+  Vector<std::uint32_t> first_texels_;  // indexed by slot
 };
 
-// Returns the text for the host's shaders: shaders/character/host.glsl and everything it includes.
+// Returns the GLSL text for the host's shaders: shaders/character/host.glsl and everything that it includes.
 const char* scene_light_glsl();
 
 }  // namespace nook::gl

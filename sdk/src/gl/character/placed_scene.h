@@ -1,4 +1,5 @@
-// Where models and the instances of a scene live on the GPU. Tiers differ only in what their chunks hold.
+// How models and the instances of a scene are stored on the GPU. All tiers use this code; only the contents
+// of their chunks differ.
 #pragma once
 
 #include <algorithm>
@@ -27,18 +28,18 @@ struct ModelData {
   std::uint32_t bones() const { return static_cast<std::uint32_t>(model->model.bone_count()); }
 
   Ref<const LoadedModel> model;
-  std::uint32_t users = 0;  // chunks of instances
+  std::uint32_t users = 0;  // number of chunks that use the model
 };
 
-// Makes a buffer whose data never change. Throws Failure, UNSUPPORTED if this OpenGL cannot bind a piece this
-// large.
+// Creates a buffer whose data never change. Throws Failure. It is Failure(UNSUPPORTED) if the buffer is too
+// large to be bound by this OpenGL.
 Buffer static_buffer(Device& device, const char* label, const void* data, std::uint64_t bytes);
 template <class T>
 Buffer static_buffer(Device& device, const char* label, const Vector<T>& data) {
   return static_buffer(device, label, data.data(), data.size() * sizeof(T));
 }
 
-// Returns the tier's copy of a model, and makes it on first use. Throws Failure.
+// Returns the tier's copy of a model. Creates it if it does not exist yet. Throws Failure.
 template <class Model>
 Model& model_data(Device& device, List<Model>& models, const Ref<const LoadedModel>& loaded) {
   for (Model& known : models)
@@ -52,13 +53,14 @@ void drop_unused(List<Model>& models) {
   models.remove_if([](const Model& model) { return model.users == 0; });
 }
 
-// Instances of one model live side by side in chunks, whose buffers stay below the size that OpenGL
-// guarantees.
+// The instances of a model are stored next to each other in chunks. The buffers of a chunk stay below the
+// size that OpenGL guarantees.
 
-// The part of a chunk that all tiers share: its instances and their results for the host. A tier's own Chunk
-// derives from it, has a member `Model* model`, and is made from (device, model, capacity).
+// The part of a chunk that all tiers share: its instances and their results for the host. Each tier derives
+// its own Chunk from it. A Chunk must have a member `Model* model` and a constructor with the parameters
+// (device, model, capacity).
 struct ChunkData {
-  // AO starts fully open. Throws Failure.
+  // Initially, all AO is 1, which is fully open. Throws Failure.
   ChunkData(Device& device, ModelData& model, std::uint32_t instance_capacity);
   ChunkData(const ChunkData&) = delete;
   ChunkData& operator=(const ChunkData&) = delete;
@@ -72,28 +74,29 @@ struct ChunkData {
 
   ModelData& data;
   std::uint32_t capacity;
-  Vector<std::uint32_t> slots;  // for each place, the slot of the scene that lives there, or `empty`
+  Vector<std::uint32_t> slots;  // for each place, the slot of the scene's instance that is stored there, or
+                                // `empty`
   std::uint32_t living = 0;
   std::uint32_t first_free = 0;  // no place before it is empty
   Buffer ao;                     // capacity * file vertices
-  Buffer directional_ao;         // capacity * file vertices * 3; none before the first light
+  Buffer directional_ao;         // capacity * file vertices * 3 floats; created for the first light
 };
 
-// Returns how many instances fit in one chunk if each takes at most `share` bytes of a buffer. Throws Failure
-// if none fits.
+// Returns how many instances fit into one chunk if each takes at most `share` bytes of a buffer. Throws
+// Failure if not even one instance fits.
 std::uint32_t max_in_chunk(const Device& device, std::uint64_t share);
 
-// Where an instance of the scene lives; indexed by the scene's slot.
+// The chunk and place of an instance of the scene. Arrays of placements are indexed by the scene's slot.
 template <class Chunk>
 struct Placement {
   nook_instance_id id = 0;
   Chunk* chunk = nullptr;
   std::uint32_t place = 0;
-  bool evaluated = false;  // the AO in the chunk comes from an update
-  bool lit = false;        // the last update saw a light
+  bool evaluated = false;  // true if an update has computed the AO that is in the chunk
+  bool lit = false;        // true if the instance had a light in the last update
 };
 
-// Waits for the GPU. Throws Failure.
+// Copies values to `out`, and waits for the GPU. Throws Failure.
 void read_buffer(const Device& device, const VertexValues& values, float* out);
 
 [[noreturn]] void fail_without_place(nook_instance_id instance);
@@ -111,7 +114,7 @@ class PlacedScene {
   // True if the structure of the scene has changed since places were assigned.
   bool outdated() const { return !prepared_ || structure_revision_ != scene->structure_revision; }
 
-  // Assigns a place to every instance; instances that have one keep it. Throws Failure.
+  // Assigns a place to every instance that does not have one yet. Throws Failure.
   void place_all(Device& device, List<Model>& models) {
     prepared_ = false;
     vacate_removed();
@@ -121,13 +124,14 @@ class PlacedScene {
       if (scene->instances[slot].id && !placements[slot].id) place_new(device, models, slot);
     drop_unused(models);
   }
-  // Call it when the rest of the preparation is done.
+  // Call it after all other steps of the preparation.
   void finish() {
     structure_revision_ = scene->structure_revision;
     prepared_ = true;
   }
 
-  // Call it before deciding who is due: an instance that got a light since the last update is due.
+  // Marks instances that got a light after the last update as due. Call it before you decide which instances
+  // are due.
   void notice_lights() noexcept {
     for (std::size_t slot = 0; slot < placements.size(); ++slot) {
       const bool lit = scene->instances[slot].light.count > 0;
@@ -143,7 +147,7 @@ class PlacedScene {
   }
   LightPlace light_place(nook_instance_id instance) const {
     const Placement<Chunk>* placement = find(instance);
-    // Without `lit`, the texel belongs to an instance that lived in the slot before.
+    // If `lit` is false, the texel may belong to an earlier instance in the same slot.
     const std::uint32_t texel =
         placement && placement->lit ? lights.first_texel(slot_of(*placement)) : LightTexture::no_light;
     if (texel == LightTexture::no_light) fail_without_light(instance);
@@ -194,8 +198,9 @@ class PlacedScene {
     chunk.slots[placements[slot].place] = slot;
     ++chunk.living;
   }
-  // Returns a chunk of the model with room, or a new one for all waiting instances of the model. If the model
-  // already has chunks, a new one has room to grow by half.
+  // Returns a chunk of the model that has a free place. If there is none, creates a chunk for all instances
+  // of the model that have no place yet. If the model already has chunks, the new chunk is larger, so that
+  // the number of instances can grow by half.
   Chunk& chunk_with_room(Device& device, List<Model>& models, const Ref<const LoadedModel>& model) {
     std::uint32_t living = 0, waiting = 0;
     for (Chunk& chunk : chunks) {
@@ -212,11 +217,12 @@ class PlacedScene {
                                std::min(wanted, max_in_chunk(device, shared.largest_share())));
   }
 
-  std::uint64_t structure_revision_ = 0;  // of the scene, when the places were assigned
+  std::uint64_t structure_revision_ = 0;  // revision of the scene's structure for which the places were
+                                          // assigned
   bool prepared_ = false;
 };
 
-// Returns the tier's data of a scene, or NULL if there are none yet.
+// Returns the tier's data for a scene, or NULL if the tier has no data for it yet.
 template <class Placed>
 Placed* placed_scene(List<Placed>& scenes, const Scene& scene) {
   for (Placed& known : scenes)

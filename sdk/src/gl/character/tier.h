@@ -1,6 +1,6 @@
-// The interface of a tier, which evaluates characters on one kind of OpenGL. A tier owns the buffers of every
-// scene that it evaluates and of the models of these scenes. Which tier runs depends on the context's
-// abilities (functions.h).
+// A tier evaluates characters on one kind of OpenGL. This is the interface of all tiers. A tier owns the
+// buffers of all scenes that it evaluates, and of the models of these scenes. The tier is chosen by the
+// context's abilities (functions.h).
 #pragma once
 
 #include "sdk/src/character/scene.h"
@@ -13,7 +13,7 @@ namespace nook::gl {
 struct VertexValues {
   GLuint buffer = 0;
   std::uint64_t offset = 0;    // bytes
-  std::uint32_t vertices = 0;  // as in the model's file
+  std::uint32_t vertices = 0;  // number of vertices in the model's file
   std::uint32_t channels = 1;  // floats for each vertex
 
   std::uint64_t bytes() const { return std::uint64_t{vertices} * channels * sizeof(float); }
@@ -21,18 +21,19 @@ struct VertexValues {
 
 struct LightPlace {
   VertexValues directional_ao;
-  GLuint texture = 0;  // of the lights
+  GLuint texture = 0;  // the texture that contains the lights
   std::uint32_t first_texel = 0;
 };
 
-// OpenGL memory in bytes: what the instances of a model share, and what each takes.
+// OpenGL memory in bytes: the memory that all instances of a model share, and the memory of each instance.
 struct ModelMemory {
   std::uint64_t shared = 0;
   std::uint64_t instance = 0;
-  std::uint64_t light = 0;  // what a light adds to an instance
+  std::uint64_t light = 0;  // additional memory of an instance with a light
 };
 
-// Every call except const ones may change any of the touched state; the caller must hold a StateGuard.
+// Every call except const ones may change any OpenGL state in touched_state.h, so the caller must hold a
+// StateGuard.
 class Tier {
  public:
   Tier() = default;
@@ -41,27 +42,28 @@ class Tier {
   virtual ~Tier() = default;
 
   // Assigns a place to every instance of the scene, and makes all buffers and programs that its update needs.
-  // It is cheap if nothing has changed. Throws Failure; the next call continues with what was made until
-  // then.
+  // The call is cheap if nothing has changed. Throws Failure. What was created until then is kept, and the
+  // next call continues from there.
   virtual void prepare(const Scene& scene) = 0;
-  // Evaluates a prepared scene. Throws Failure; the next update makes up for this one.
+  // Evaluates a prepared scene. If it throws Failure, the next update evaluates the missing instances.
   virtual void update(Scene& scene) = 0;
 
-  // Sets the poses of instances of a prepared scene from the host's buffer. Throws Failure before anything
-  // changes.
+  // Sets the poses of instances of a prepared scene from the host's buffer. If it throws Failure, nothing has
+  // changed.
   virtual void set_poses(Scene& scene, const PoseBatch& batch) = 0;
   // Copies the bones of an instance, in world space, and waits for the GPU. Throws Failure.
   virtual void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const = 0;
 
-  // Throws Failure unless the instance has a place.
+  // Returns where the AO of an instance is. Throws Failure if the instance has no place.
   virtual VertexValues place(const Scene& scene, nook_instance_id instance) const = 0;
-  // Throws Failure unless the last update saw a light on the instance.
+  // Returns where the light of an instance is. Throws Failure if the instance had no light in the last
+  // update.
   virtual LightPlace light_place(const Scene& scene, nook_instance_id instance) const = 0;
 
-  // Copies values to `out` and waits for the GPU. Throws Failure.
+  // Copies values to `out`, and waits for the GPU. Throws Failure.
   virtual void read(const VertexValues& values, float* out) const = 0;
 
-  // Returns the memory of a model, even if it was not used yet.
+  // Returns the memory that a model needs. The model need not be in use.
   virtual ModelMemory memory_of(const LoadedModel& model) const = 0;
 
   virtual void release(const Scene& scene) = 0;

@@ -104,8 +104,8 @@ void add_neural_declarations(const material::NeuralTables& tables, String& out) 
       float_literal(bias[1]).text, float_literal(bias[2]).text);
 }
 
-// Writes the code that fetches from a layer. The layers may be split into several texture arrays with `most`
-// layers each.
+// Writes the code that fetches a texel of a layer. The layers may be distributed over several texture arrays
+// with `most` layers each.
 template <class Fetch>
 void add_choice(String& out, std::uint32_t arrays, std::uint32_t most, Fetch&& fetch) {
   for (std::uint32_t i = 0; i < arrays; ++i) {
@@ -114,9 +114,9 @@ void add_choice(String& out, std::uint32_t arrays, std::uint32_t most, Fetch&& f
   }
 }
 
-// Writes the samplers of the spatial modes, and the function that fetches four modes. The parameter `mode` of
-// this function is an index into the modes of a cluster. In the order of these modes, modes that are not
-// stored in blocks come first.
+// Writes the samplers of the spatial modes, and the function that fetches four modes. In the generated
+// function, the parameter `mode` is an index into the modes of a cluster. The modes that are not stored in
+// blocks have the first indices.
 void add_modes(String& out, const material::TensorTables& t, const char* name, std::uint32_t max_layers) {
   const std::uint32_t whole = t.whole_modes() * t.view_vec4_count,
                       packed = t.packed_modes * t.view_vec4_count;
@@ -206,7 +206,7 @@ String material_source(const material::MaterialTables& tables, std::uint32_t max
   if (!is_neural) add_relief(out, tables.relief);
   add(out, "#define NOOK_MATERIAL_MAX_FETCHES %u\n", material::max_fetches);
   if (tables.votf.terms != 0)
-    // OpenGL ES does not allow initial values for uniforms, so there it is a constant.
+    // OpenGL ES does not allow initial values for uniforms, so there the mapping is a constant.
     add(out, "#ifdef GL_ES\nconst\n#else\nuniform\n#endif\nvec2 nook_visibility_mapping = vec2(%s, %s);\n",
         float_literal(tables.mapping.threshold).text, float_literal(tables.mapping.weight).text);
   out += host_text("material/base/host.glsl");

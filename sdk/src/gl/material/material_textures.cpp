@@ -34,7 +34,7 @@ void check_blocks(const Functions& gl, const TensorTables& t) {
                   gl.can.rgtc_textures  ? "NOOK_MATERIAL_BLOCKS_RGTC or _NONE"
                   : gl.can.eac_textures ? "NOOK_MATERIAL_BLOCKS_EAC or _NONE"
                                         : "NOOK_MATERIAL_BLOCKS_NONE");
-  // The extension for WebGL requires multiples of 4 for the finest level.
+  // The WebGL extension requires that the width and height of the finest level are multiples of 4.
   if (is_rgtc && gl.profile == Profile::webgl && (t.width % 4 != 0 || t.height % 4 != 0))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "WebGL does not allow RGTC textures of the material's size (got %u x %u texels, need "

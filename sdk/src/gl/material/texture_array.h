@@ -23,7 +23,7 @@ struct ArrayPlan {
   ArrayUse use = ArrayUse::spatial;
   GLsizei width = 0, height = 0;
   GLsizei first_layer = 0, layers = 0;
-  GLsizei all_layers = 0;  // number of layers in `data`, including layers of other arrays
+  GLsizei all_layers = 0;  // number of layers in `data`, which may also contain the layers of other arrays
   GLsizei levels = 1;
 };
 

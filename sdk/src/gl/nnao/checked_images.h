@@ -8,10 +8,10 @@
 
 namespace nook::gl {
 
-// Keeps the last four different sets, because hosts use a rotating set of textures in a swap chain. While
-// other sets are in use, a host may delete a texture and get the same name for a texture of another format.
-// So the first time that a pass uses a set again after another set, the set is checked a second time. After
-// this check, the set is known.
+// Keeps the last four different sets, because a host may use several sets of textures in turn, as in a swap
+// chain. While other sets are in use, a host may delete a texture, and OpenGL may reuse its name for a
+// texture of another format. So the first time that a pass returns to a set after it used another set, the
+// set is checked again. After this second check, the set is known.
 class CheckedImages {
  public:
   static constexpr std::size_t most_sets = 4;

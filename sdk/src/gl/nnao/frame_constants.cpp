@@ -82,8 +82,8 @@ FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pas
       nnao::frame_radius({nnao::RadiusKind(frame.radius_kind), frame.radius, frame.scene_size,
                           frame.max_radius_px, frame.min_radius_px},
                          float(viewport.height));
-  // The length in metres that max_px pixels cover at the depth 1. In a perspective, it is proportional to the
-  // depth.
+  // The length in metres that max_px pixels cover at a depth of 1 metre. In a perspective projection, this
+  // length is proportional to the depth.
   const float radius_extent = radius.max_px * std::abs(screen.y_scale);
   const int surface_width = surface_length(viewport.width, half),
             surface_height = surface_length(viewport.height, half);
@@ -133,7 +133,7 @@ struct Inverse {
   double rotation[9], translation[3];
 };
 
-// Computes in double precision, so that the product is as exact as one that the host would compute itself.
+// Computed in double precision, so that the product is as exact as if the host had computed it.
 Inverse inverse_of(const float (&m)[16]) {
   const auto at = [&](int row, int column) { return double(m[4 * column + row]); };
   const auto minor = [&](int row, int column) {
@@ -173,7 +173,7 @@ Mat3x4 earlier_from_view(const float (&earlier)[16], const float (&view)[16]) {
 HistoryConstants history_constants(const NnaoFrame& frame, const nook_nnao_desc& pass,
                                    const FrameConstants& constants, const EarlierFrame& earlier) {
   HistoryConstants values{};
-  // After a cut, the history is not read, so the matrix does not matter.
+  // Without a previous frame, the history is not read, so any matrix can be used.
   const Mat3x4 motion = earlier.drawn ? earlier_from_view(earlier.view, frame.view) : Mat3x4{};
   std::copy_n(motion.m, 12, values.begin());
   const auto set = [&](int index, std::array<float, 4> four) {

@@ -45,7 +45,7 @@ Vector<float> TexelReader::read(GLuint texture, const Viewport& viewport, int ch
     set_viewport(gl, {0, 0, float(viewport.width), float(rows)});
     gl.Uniform2i(first, viewport.x, viewport.y + y);
     gl.DrawArrays(GL_TRIANGLES, 0, 3);
-    // This is the only format in which OpenGL ES reads back integers.
+    // For integers, this is the only format that OpenGL ES guarantees to read back.
     gl.ReadPixels(0, 0, viewport.width, rows, GL_RGBA_INTEGER, GL_UNSIGNED_INT, bits_.data());
     device_.check("reading texels back");
     const std::size_t texels = std::size_t(viewport.width) * std::size_t(rows);
@@ -106,8 +106,8 @@ void copy_settings(const NnaoFrame& from, nnao::RecordedFrame& to) {
   to.fade_end = from.fade_end;
 }
 
-// Replaces settings by simpler ones with the same result. Logarithmic depth becomes linear depth, and a
-// radius relative to the scene becomes metres.
+// Replaces some settings by simpler settings that give the same result. Logarithmic depth becomes linear
+// depth, and a radius relative to the scene becomes metres.
 void simplify(nnao::Recording& recording, const NnaoFrame& frame) {
   if (frame.radius_kind == NOOK_NNAO_RADIUS_SCENE) {
     recording.frame.radius = frame.radius * frame.scene_size;
@@ -122,9 +122,9 @@ void simplify(nnao::Recording& recording, const NnaoFrame& frame) {
   recording.frame.sky_depth = 0;
 }
 
-// Texels of normalised integers that are too short for a normal are replaced by the texel of a zero vector.
-// This is needed because a recording does not store the host's format, and a zero vector is too short in
-// every format.
+// For formats with normalised integers: if a texel is too short to be a normal, replaces it by the texel of a
+// zero vector. This is needed because a recording does not store the host's format, and a zero vector is too
+// short in every format.
 void zero_short_normals(const NnaoFrame& frame, Vector<float>& texels) {
   const double shortest = double(nnao::shortest_normalised_normal) * nnao::mean_scale(frame.normal_matrix);
   const float* const m = frame.normal_matrix;
@@ -168,7 +168,8 @@ nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_des
   if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE)
     recording.layer = reader.read(frame.gbuffer_ao_texture, viewport, 2);
   recording.ao = ao_of(reader, pass, made_with, viewport);
-  // Rounds to exact 255ths: AO has 8 bits, but some drivers divide by 255 inexactly.
+  // AO has 8 bits, but some drivers divide by 255 inexactly. So rounds each value to the nearest multiple of
+  // 1 / 255.
   for (float& ao : recording.ao) ao = std::round(255 * std::clamp(ao, 0.0f, 1.0f)) / 255;
   recording.width = std::uint32_t(viewport.width);
   recording.height = std::uint32_t(viewport.height);

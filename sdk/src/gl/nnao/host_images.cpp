@@ -65,9 +65,9 @@ struct BoundTexture {
   }
 };
 
-// Queries a texture as an attachment of a framebuffer. OpenGL ES 3.0 and WebGL have no queries for textures,
-// but some for attachments, and the framebuffer need not be complete. Binds `texture.framebuffer`. Returns 0
-// if the driver refuses to attach the texture.
+// Queries a texture as an attachment of a framebuffer. OpenGL ES 3.0 and WebGL cannot query textures, but
+// they can query attachments. The framebuffer need not be complete. Binds `texture.framebuffer`. Returns 0 if
+// the driver refuses to attach the texture.
 GLint ask_attached(const BoundTexture& texture, GLenum attachment, GLenum what) {
   const Functions& gl = texture.device.gl;
   gl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, texture.framebuffer);
@@ -163,7 +163,7 @@ void check_channels(const BoundTexture& texture, GLenum count, const char* field
     if (!is_float_or_normalised(type_of(texture, channel))) refuse_format(texture, field, need);
 }
 
-// Throws Failure if a texture with depth and stencil is set to return stencil.
+// Throws Failure if a texture contains depth and stencil, and shaders would read its stencil.
 void check_shows_depth(const BoundTexture& texture) {
   const Functions& gl = texture.device.gl;
   if (!gl.can.stencil_textures) return;
@@ -223,7 +223,7 @@ void check_complete(const Functions& gl, const HostImages& images) {
         images.target_name, status);
 }
 
-// Throws Failure if one of the input textures is (part of) the target.
+// Throws Failure if an input texture is the target or an attachment of the target.
 void check_apart(const HostImages& images, std::uint32_t target, const char* target_field) {
   const struct {
     std::uint32_t name;

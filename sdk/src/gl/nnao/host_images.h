@@ -8,8 +8,8 @@
 
 namespace nook::gl {
 
-// The names, kinds and sizes of a frame's images. OpenGL is queried about the images only when one of these
-// fields changes.
+// The names, kinds and sizes of a frame's images. The pass queries OpenGL about the images only if one of
+// these fields has changed.
 struct HostImages {
   int width = 0, height = 0;
   int layers = 0;   // layers of texture arrays; 0: 2D textures
@@ -31,8 +31,8 @@ void check_images_of(const Functions& gl, const nook_nnao_desc& pass);
 
 // The results of OpenGL queries about the images of a frame.
 struct ImageFacts {
-  std::uint32_t answers = 0;  // checksum of sizes and formats
-  int depth_bits = 0;         // of the depth channel; 0: unknown
+  std::uint32_t answers = 0;  // checksum of the sizes and formats that OpenGL has returned
+  int depth_bits = 0;         // number of bits of the depth channel; 0: unknown
   bool normalised_normals = false;
 
   bool operator==(const ImageFacts&) const = default;
@@ -40,8 +40,9 @@ struct ImageFacts {
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) unless every image exists and has a suitable size and format,
 // and no input is the target. `own_texture` is the pass's own texture. `target_framebuffer` is a framebuffer
-// without attachments, to which textures are attached for tests. Changes the 2D texture of unit 0, arrays and
-// multisample textures of unit 1, and the draw framebuffer. Leaves no OpenGL error behind.
+// without attachments, to which the function attaches textures to test them. Changes these OpenGL bindings:
+// the 2D texture of unit 0, texture arrays and multisample textures of unit 1, and the draw framebuffer.
+// Leaves no OpenGL error behind.
 ImageFacts check_images(const Device& device, const HostImages& images, std::uint32_t own_texture,
                         std::uint32_t target_framebuffer);
 

@@ -50,8 +50,8 @@ struct FrameConstants {
 };
 
 // The frame must have passed check_frame. `count` is the number of frames that the pass has drawn. If
-// max_history_frames is set, the noise of the taps is shifted depending on `count`. `layer` is the layer of
-// the host's texture arrays, for passes with views.
+// max_history_frames is set, the noise of the taps is shifted by an amount that depends on `count`. `layer`
+// is the layer of the host's texture arrays, for passes with views.
 FrameConstants frame_constants(const NnaoFrame& frame, const nook_nnao_desc& pass, std::uint32_t count,
                                int layer = 0);
 
@@ -69,7 +69,7 @@ struct EarlierFrame {
   std::uint32_t count = 0;  // number of frames since the pass was created
   bool drawn = false;       // false: there is no previous frame
   FrameConstants constants;
-  int width = 0, height = 0;  // of the surface
+  int width = 0, height = 0;  // size of the surface
   float view[16] = {};        // view matrix, from world space
 };
 

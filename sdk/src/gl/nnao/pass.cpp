@@ -83,7 +83,7 @@ void NnaoPass::render_layer(const NnaoFrame& frame, int layer) {
   const bool layered = frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE;
   if (timer_) timer_->begin_frame();
 
-  // Unbinds all inputs, so that a texture that a later stage draws into is not bound.
+  // Unbinds all inputs, because a later stage may draw into one of them.
   for (const GLuint unit : {NOOK_UNIT_DEPTH, NOOK_UNIT_AO, NOOK_UNIT_LAYER, NOOK_UNIT_MOTION})
     bind_texture(unit, 0);
   if (desc_.views > 0)
@@ -103,8 +103,8 @@ void NnaoPass::render_layer(const NnaoFrame& frame, int layer) {
 
   if (frame.show == NOOK_NNAO_VIEW_NORMALS) {
     bind_normals(frame.normal_texture);
-    // The timer expects four stages in every frame. This view has no occlusion and blur stages, so both end
-    // immediately.
+    // The timer expects the same stages in every frame. This view has no occlusion and blur stages, so both
+    // end immediately.
     end_stage();
     end_stage();
     set_frame(show_normals_stage_, constants);
@@ -123,7 +123,7 @@ void NnaoPass::render_layer(const NnaoFrame& frame, int layer) {
     bind_texture(NOOK_UNIT_AO, ao_[(pass + 1) % 2].texture());
   }
   end_stage();
-  // The debug views ignore the host's layer.
+  // Debug views do not include the host's layer.
   const bool combined = layered && frame.show == NOOK_NNAO_VIEW_AO;
   set_frame(combined ? layered_stage_ : resolve_stage_, constants);
   draw_output(frame, layer);

@@ -66,12 +66,13 @@ class NnaoPass : public ScreenPass {
   void run_network(const FrameConstants& constants, const Viewport& surface) const;
   // If max_history_frames is set, each layer has its own textures. Otherwise all layers share one set.
   struct LayerTextures {
-    RenderTexture depth[2];    // of the surface; means over frames use two, alternating
-    RenderTexture history[2];  // means over frames, alternating
+    RenderTexture depth[2];    // depth of the surface; if AO is averaged over frames, two textures are used
+                               // in turn
+    RenderTexture history[2];  // means over frames; the two textures are used in turn
     EarlierFrame earlier;
   };
   LayerTextures& textures_of(int layer) { return layers_[temporal() ? std::size_t(layer) : 0]; }
-  // Returns which of two alternating textures the current frame writes.
+  // Returns which of the two textures the current frame writes.
   std::size_t turn(const LayerTextures& layer) const { return temporal() ? layer.earlier.count % 2 : 0; }
 
   // Draws one layer. `frame` must have the matrices of this layer.
@@ -87,11 +88,11 @@ class NnaoPass : public ScreenPass {
   // Only the paper's form uses normals_stage_. The filter stages filter along x and along y.
   ScreenStage depth_stage_, apart_depth_stage_, normals_stage_, occlusion_stage_, accumulate_stage_,
       filter_stages_[2], resolve_stage_, layered_stage_, show_normals_stage_;
-  GLint earlier_location_ = -1;  // of accumulate_stage_
+  GLint earlier_location_ = -1;  // uniform location in accumulate_stage_
   std::array<LayerTextures, max_layers> layers_;
   RenderTexture normals_;  // of the surface
-  RenderTexture ao_[2];    // of the surface; the filter writes the second one
-  TexelTable filters_;     // of the paper's form
+  RenderTexture ao_[2];    // AO of the surface; the filter writes the second texture
+  TexelTable filters_;     // filters of the paper's form
   std::optional<StageTimer> timer_;
 };
 

@@ -37,7 +37,8 @@ nook_nnao_path chosen_path(const Functions& gl, nook_nnao_path asked) {
   const bool can_compute = gl.can.compute_images;
   if (asked == NOOK_NNAO_PATH_COMPUTE && !can_compute) refuse_compute(gl);
   if (asked != NOOK_NNAO_PATH_AUTOMATIC) return asked;
-  // Without R8 images, a compute shader must write four bytes of AO instead of one. Then drawing is faster.
+  // If compute shaders cannot write R8 images, they must write four bytes for each AO value. Drawing is
+  // faster in this case.
   return can_compute && gl.can.r8_images ? NOOK_NNAO_PATH_COMPUTE : NOOK_NNAO_PATH_FRAGMENT;
 }
 
@@ -123,8 +124,8 @@ NnaoPass::NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network
   make_programs(network);
   make_textures(network.form);
   if (network.form == nnao::NetworkForm::paper) upload_filters(network);
-  // The initial colour means fully open. AO is 1, in red or in alpha. With bent normals, the normal is the
-  // direction to the viewer.
+  // The initial colour is fully open: AO is 1, in red or in alpha. In a pass with bent normals, the initial
+  // normal is the direction to the viewer.
   const GLfloat aside = desc.bent_normals ? 0.5f : 1;
   make_objects({aside, aside, 1, 1});
   if (desc.timers && !device.gl.can.timestamps)

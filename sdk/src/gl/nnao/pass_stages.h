@@ -25,7 +25,8 @@ struct PassStages {
 
   String vertex;
   Vector<StageText> stages;
-  Vector<float> network;  // the uniform block, whose last vec4 holds the number of directions as an integer
+  Vector<float> network;  // the contents of the uniform block; the last vec4 contains the number of
+                          // directions as an integer
 };
 
 // The descriptor must have been checked, and the network must have the horizon form.

@@ -122,10 +122,11 @@ void ScreenPass::dispatch(const RenderTexture& target, GLenum format, int width,
   const Functions& gl = device_.gl;
   const auto groups = [&](int length) { return GLuint((length + group_size - 1) / group_size); };
   gl.BindImageTexture(image_unit_index, target.texture(), 0, GL_FALSE, 0, GL_WRITE_ONLY, format);
-  // Before the texture is written, the GPU must have finished pending reads and draws, including the host's.
+  // The shader writes the texture. The barrier makes it wait for earlier reads of the texture and draws into
+  // it, including the host's.
   gl.MemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
   gl.DispatchCompute(groups(width), groups(height), 1);
-  // Makes the writes visible to the next stage, which reads the texture.
+  // The next stage reads the texture. The barrier makes the writes visible to it.
   gl.MemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
 }
 

@@ -37,8 +37,8 @@ class ScreenPass {
   GLuint ao_texture() const { return own_.texture(); }
 
  protected:
-  // `desc` is the descriptor of the screen-space pass. A pass of another kind fills the fields that the
-  // frame's constants depend on. The pointers `network` and `next` of `desc` are not kept. Makes no OpenGL
+  // `desc` is the descriptor of the screen-space pass. The world pass only sets the fields on which the
+  // frame's constants depend. The pointers `network` and `next` of `desc` are not kept. Makes no OpenGL
   // calls.
   ScreenPass(Device& device, const NnaoSettings& desc);
 
@@ -46,8 +46,8 @@ class ScreenPass {
   void check_size() const;
   // Creates the objects that all draws need, and clears own_, which must already exist, to the colour `open`.
   void make_objects(const GLfloat (&open)[4]);
-  // Finds the frame's constants in a program, and assigns units to its samplers. The program need not have
-  // all of these samplers.
+  // Finds the location of the frame's constants in a program, and assigns texture units to its samplers. The
+  // program need not have all of these samplers.
   void make_stage(ScreenStage& stage, Object program, std::span<const SamplerUnit> samplers) const;
 
   // Checks the images of a frame, and returns facts about them. If an image is not suitable, throws Failure
@@ -57,7 +57,8 @@ class ScreenPass {
   // nook_gl_desc.debug is set.
   void make_watch(ScreenStage stage);
   // If the stage of make_watch exists, checks whether the frame shows any surface. bind_depth(frame) must
-  // bind the depth of a layer. Draws into the pass's own texture, which the frame overwrites later.
+  // bind the depth of a layer. The check draws into the pass's own texture. The frame overwrites this texture
+  // later.
   template <class BindDepth>
   void watch_surfaces(const NnaoFrame& frame, const BindDepth& bind_depth) {
     if (!watch_ || !watch_->begin(device_, frame)) return;

@@ -33,9 +33,10 @@ void StageTimer::end_stage() {
   fence = device_.gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
 }
 
-// Uses a fence instead of GL_QUERY_RESULT_AVAILABLE. In Mesa's zink, that query records commands, so the
-// result would never become available to a host that reads times in every frame. The timeout is a nanosecond,
-// because with a timeout of zero, zink does not check whether the work has finished.
+// Uses a fence instead of GL_QUERY_RESULT_AVAILABLE. In Mesa's zink driver, GL_QUERY_RESULT_AVAILABLE itself
+// records commands. So if the host reads times in every frame, the result would never become available. The
+// timeout of the fence is a nanosecond, because with a timeout of zero, zink does not check whether the work
+// has finished.
 bool StageTimer::finished(std::uint64_t frame) const {
   const GLenum status = device_.gl.ClientWaitSync(fences_[frame % kept_frames], 0, 1);
   return status == GL_ALREADY_SIGNALED || status == GL_CONDITION_SATISFIED;

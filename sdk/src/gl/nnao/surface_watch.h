@@ -1,5 +1,5 @@
-// If nook_gl_desc.debug is set, logs a message when the depth of a frame shows no surface. The message comes
-// when the result of a query is available, which may be some frames later.
+// If nook_gl_desc.debug is set, logs a message when the depth of a frame shows no surface. The message is
+// logged when the result of a query is available, which may be some frames later.
 #pragma once
 
 #include "sdk/src/gl/nnao/nnao_frame.h"
@@ -11,8 +11,8 @@ class SurfaceWatch {
  public:
   explicit SurfaceWatch(Device& device) : query_(Object::make(device, Object::Kind::query)) {}
 
-  // Checks the query of an earlier frame. If the function returns true, draw those pixels of this frame that
-  // show a surface, and then call end.
+  // Checks the query of an earlier frame. If it returns true, draw the pixels of this frame that show a
+  // surface, and then call `end`.
   bool begin(const Device& device, const NnaoFrame& frame);
   void end(const Device& device);
 

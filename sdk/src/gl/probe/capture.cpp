@@ -44,9 +44,8 @@ namespace {
 constexpr std::uint64_t texel_bytes = 4 * sizeof(float);
 constexpr float sphere = 4 * std::numbers::pi_v<float>;
 // The number of iterations that find the luminance limit above which light belongs to suns. Each iteration
-// averages only the light below the limit of the previous iteration. In each iteration, a sun that covers
-// 1e-4 of the sphere contributes only a hundredth of the previous limit to the next one, so few iterations
-// are enough.
+// averages only the light below the limit of the previous iteration. A sun that covers 1e-4 of the sphere
+// adds at most a hundredth of the previous limit to the next limit, so few iterations are enough.
 constexpr int limit_rounds = 4;
 
 CapturePlan plan_of(const CaptureTargets& targets, const CaptureSettings& settings) {
@@ -184,7 +183,8 @@ void ProbeCapture::use(const Object& program) const {
   table_.bind(device_);
 }
 
-// Draws with transform feedback. Unbinds the written buffer afterwards, because the next step copies from it.
+// Draws with transform feedback. Afterwards unbinds the buffer that was written, because the next step copies
+// from it.
 void ProbeCapture::draw(const Draw& draw) const {
   const Functions& gl = device_.gl;
   gl.BindBuffer(GL_ARRAY_BUFFER, 0);

@@ -17,7 +17,7 @@ namespace nook::gl {
 
 struct CubeMap {
   GLuint name = 0;
-  std::uint32_t face_size_px = 0;  // of the level that is read
+  std::uint32_t face_size_px = 0;  // size of a face at the mipmap level that is read
   std::uint32_t level = 0;
 };
 
@@ -29,12 +29,12 @@ void bind_checked(const Device& device, const CubeMap& cube);
 // The shaders in shaders/probe/capture read and write a table of texels. It contains constants, sums over the
 // rows of a cube map, and the average of each probe's sums.
 
-// The layout of the table, in texels of four floats. The first texel contains the luminance limit for suns.
-// Axis and sharpness of the lobes follow, padded to whole groups. Then come the rows of the solution matrix,
-// with columns in the order of the sums. Then come the sums of one group over all rows of a cube map.
-// Finally, each probe has its averaged sums: the groups of lobes, then one group of harmonics.
+// The layout of the table, in texels of four floats. First comes a texel with the luminance limit for suns.
+// Second come axis and sharpness of the lobes, padded to whole groups. Third come the rows of the solution
+// matrix, whose columns have the order of the sums. Fourth come the sums of one group over each row of a cube
+// map. Last come the averaged sums of each probe: the groups of lobes, then one group of harmonics.
 struct CapturePlan {
-  std::uint32_t lobes = 0;  // 0: harmonics alone
+  std::uint32_t lobes = 0;  // number of lobes; 0: only harmonics
   std::uint32_t face_size_px = 0;
   std::uint64_t probes = 0;
 
@@ -80,7 +80,7 @@ struct CaptureSettings {
   std::uint32_t face_size_px = 64;
   std::uint32_t level = 0;
   std::uint32_t history = 1;  // maps
-  bool sky = false;           // excludes suns
+  bool sky = false;           // if true, suns are excluded
   probe::Constraint constraint = probe::Constraint::bands;
 };
 

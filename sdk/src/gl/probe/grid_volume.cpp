@@ -41,7 +41,7 @@ std::uint16_t half_of(float value, std::size_t probe) {
   return to_half(value);
 }
 
-// Writes texels of the volume. A place in the grid has one texel in each layer.
+// Writes the texels of the 3D texture. Each probe or cell has one texel in each layer.
 class Writer {
  public:
   Writer(Vector<std::uint16_t>& texels, const probe::Grid& grid) : texels_(texels), grid_(grid) {}
@@ -182,7 +182,7 @@ void GridVolume::update(const probe::Probes& probes) {
   grid_ = probes.grid;
 }
 
-// Copies one texel per layer, because a probe has one texel in each layer.
+// A probe has one texel in each layer, so the texels are copied one by one.
 void GridVolume::copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const {
   const Functions& gl = device_.gl;
   gl.ActiveTexture(GL_TEXTURE0);

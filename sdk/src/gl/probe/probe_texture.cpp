@@ -66,7 +66,8 @@ void ProbeTexture::update(const probe::Probes& probes) {
 
 void ProbeTexture::copy_probe(std::size_t index, GLuint buffer, std::uint64_t offset_bytes) const {
   table_.copy(device_, buffer, offset_bytes, first_amplitude_texel(basis_.count, index), basis_.count);
-  // The new light has no separate amplitudes for gloss, so they are copied from the same source.
+  // The new data contain no separate amplitudes for gloss, so the amplitudes of the light are copied there,
+  // too.
   if (has_gloss_)
     table_.copy(device_, buffer, offset_bytes, first_amplitude_texel(basis_.count, grid_.size() + index),
                 basis_.count);

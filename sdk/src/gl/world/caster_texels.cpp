@@ -16,7 +16,7 @@ constexpr std::array<std::uint8_t, world::max_part_casters> every_caster = [] {
   return order;
 }();
 
-// A prop or an occluder is a single part.
+// The parts of a prop or occluder: a single part with one caster.
 constexpr world::CasterParts one_caster{1, {0, 1}, {}};
 
 // A bounding sphere of the casters that `order` selects, and their total strength; see caster_strength.

@@ -21,14 +21,14 @@ std::uint64_t shade_texels_of(const ReachingGroup& group);
 
 class CasterTexels {
  public:
-  // `table` has four floats for each texel of all bodies.
+  // `table` must have four floats for each texel of all bodies.
   CasterTexels(float* table, const float* view, std::uint32_t bodies);
 
   // Call put for all bodies in ascending order of `body`.
   void put(std::uint32_t body, const ReachingGroup& group, float level_error);
 
   // Begins the section of bodies that cast shadows from a light cone. It starts at the texel `first`, after
-  // all other bodies. Then put these bodies in ascending order.
+  // all other bodies. After that, call `put` for these bodies in ascending order.
   void begin_shades(std::uint64_t first, std::uint32_t bodies);
   void put_shade(std::uint32_t body, const ReachingGroup& group);
 

@@ -122,8 +122,8 @@ void FrameCasters::fit_tiles(const Device& device, world::TileGrid& grid, std::u
       sum += world::most_list_texels(grid, lists->ranges);
     return sum;
   };
-  // The larger the tiles, the shorter the lists are in total. In the extreme, there is a single list of all
-  // bodies.
+  // Larger tiles make all lists together shorter. In the extreme case, there is a single tile, whose list
+  // contains all bodies.
   while (most_texels() > device.max_texels && grid.columns() * grid.rows() > 1) {
     grid.tile_px *= 2;
     for (TileLists* const lists : {&reaching_, &near_, &shades_})

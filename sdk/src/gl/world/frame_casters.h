@@ -14,7 +14,8 @@ namespace nook::gl {
 // Settings for the lists of a pass.
 struct ListForm {
   std::uint32_t tile_px = 32;  // minimum size of a tile along a side, in pixels
-  bool near = false;           // adds a list of the bodies nearer than their merging distance
+  bool near = false;           // adds a list of the bodies that are nearer to the camera than their merging
+                               // distance
 };
 
 class FrameCasters {
@@ -61,7 +62,7 @@ class FrameCasters {
     std::uint32_t first_tile = 0;
   };
 
-  // Both functions return the number of texels of the groups that they selected.
+  // Both functions select groups, and return the number of texels that these groups take.
   std::uint64_t choose_reaching(const WorldFrame& frame, const world::TileGrid& grid,
                                 const ReachingGroups& groups);
   std::uint64_t choose_shades(const WorldFrame& frame, const world::TileGrid& grid,
@@ -75,7 +76,7 @@ class FrameCasters {
 
   TexelTable table_;
   ListForm form_;
-  TileLists reaching_, near_, shades_;  // near_ uses the groups of reaching_
+  TileLists reaching_, near_, shades_;  // near_ refers to the groups of reaching_
   bool far_ = false;
   std::uint32_t caster_count_ = 0, tile_px_ = 32, columns_ = 0, light_columns_ = 0, first_shade_ = 0;
 };

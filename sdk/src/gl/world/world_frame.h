@@ -23,11 +23,11 @@ struct ReachingGroup {
   // strength_over_cutoff is in square metres. At the distance d, the casters reduce AO by at most
   // cutoff_error * strength_over_cutoff / d^2.
   float strength_over_cutoff = 0;
-  const world::CasterParts* parts = nullptr;  // NULL: one caster
+  const world::CasterParts* parts = nullptr;  // NULL: the group has one caster
 
   // Returns the distance from the centre, in metres, beyond which one merged capsule replaces the casters.
   float merging_distance(float level_error) const {
-    // A single caster cannot be merged any further.
+    // A single caster is never merged. An error of 0 gives an endless distance.
     return world::merging_distance(strength, radius, parts ? level_error : 0);
   }
 };

@@ -16,8 +16,8 @@ namespace nook::gl {
 namespace {
 
 // Texture units for textures that only this pass has. Two textures may share a unit if no stage reads both of
-// them. The depth of every fourth pixel has two units: the upsample stage also reads a layer, and the AO
-// stages also read normals.
+// them. The depth of every fourth pixel has two units, because the upsample stage also reads a layer, and the
+// AO stages also read normals.
 constexpr GLuint caster_unit = filter_unit, half_ao_unit = filter_unit;
 constexpr GLuint upsample_depth_unit = NOOK_UNIT_NORMAL, darkening_depth_unit = NOOK_UNIT_LAYER;
 constexpr GLuint other_ao_unit = NOOK_UNIT_MOTION, far_unit = NOOK_UNIT_MOTION;

@@ -1,7 +1,8 @@
 // Draws how occluders (casters) darken the surfaces in a depth buffer.
 //   full resolution  host depth -> AO and result
-//   half resolution  host depth -> depth of every fourth pixel; AO by far bodies of fewer still; AO of every
-//                    fourth by near bodies, times that -> upsample and result
+//   half resolution  host depth -> depth of every fourth pixel -> AO by far bodies, for fewer pixels
+//                    -> AO by near bodies, for every fourth pixel, times the AO by far bodies
+//                    -> upsample and result
 // If compute shaders can write images, both AO stages at half resolution are dispatches. Each group of
 // threads skips the bodies that do not reach any surface of the group's pixels.
 #pragma once
@@ -35,7 +36,7 @@ class WorldPass : public ScreenPass {
   struct Stage : ScreenStage {
     GLint groups = -1, columns = -1, first_tile = -1, tile_size = -1, composition = -1, counts = -1;
     // Locations that only coloured passes have.
-    GLint far = -1, first_far_tile = -1;  // of half resolution
+    GLint far = -1, first_far_tile = -1;  // only used at half resolution
     GLint light_terms = -1, cone = -1, light_columns = -1, first_light_tile = -1, first_shade = -1;
   };
   Stage make_stage(Object program) const;
