@@ -1,4 +1,4 @@
-// Decodes the bones of baked clips, and writes them to the stream, from which an update reads bones. There is
+// Decodes the bones of baked clips, and writes them to the stream. An update reads bones from there. There is
 // one group for each instance of the update. The bones of the instance are distributed over the threads of
 // its group. decode_bone in sdk/src/character/loaded_clips.cpp does the same on the CPU.
 #include "shaders/character/layout.h"
@@ -6,15 +6,15 @@
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;
 
-// The stream begins with the records of instance.glsl. At the index where this shader writes the bones of an
-// instance, the stream initially contains their input. The first three elements are the rows of the
+// The stream begins with the records of instance.glsl. This shader overwrites the bones of an instance in the
+// stream. Before that, the same elements contain its input. The first three elements are the rows of the
 // instance's place, relative to its origin. The fourth contains two frames and the share of the second frame.
 layout(std430, binding = NOOK_BINDING_STREAM) buffer NookStream {
   uvec4 nook_stream[];
 };
 // The buffer begins with the scale of each mode. Then come the centre and radius of each bone, and the
-// weights of each frame. The modes come last, with twelve numbers for each bone. A weight, and a number of a
-// mode, takes half a word.
+// weights of each frame. The modes come last, with twelve values for each bone. Weights and mode values are
+// 16-bit integers, two in each word.
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookClips {
   uint nook_clip[];
 };
@@ -62,7 +62,7 @@ mat3 nook_evened(mat3 axes) {
 }
 
 void nook_decode(uint bone, uint first) {
-  // The twelve numbers of the bone: three rows of its rotation and scale, and the position of its centre.
+  // The twelve values of the bone: three rows of its rotation and scale, and the position of its centre.
   vec2 sums[NOOK_CLIP_BONE_WORDS];
   for (int i = 0; i < NOOK_CLIP_BONE_WORDS; ++i) sums[i] = vec2(0.0);
   uint at = nook_first_mode + uint(NOOK_CLIP_BONE_WORDS) * bone;
@@ -91,7 +91,8 @@ void main() {
   if (((head.z >> NOOK_RECORD_CLIPS_SHIFT) & NOOK_RECORD_CLIPS_MASK) == nook_number) {
     uint thread = gl_LocalInvocationID.x;
     if (thread < uint(NOOK_CLIP_JOB_UVEC4S)) nook_job[thread] = nook_stream[head.x + thread];
-    // The bones will overwrite the job in the stream. So wait until every thread has copied its part.
+    // The bones will overwrite the instance's input in the stream. So wait until every thread has copied the
+    // part that it needs.
     barrier();
     uvec4 frames = nook_job[NOOK_BONE_ROWS];
     float share = uintBitsToFloat(frames.z);

@@ -29,8 +29,8 @@ NookBands nook_gather_spheres(uint first, uint count, NookPoint point) {
   return bands;
 }
 
-// Combines the spheres of a caster. xyz is the sum of the directions to the spheres, weighted by their
-// shares; w is the sum of the shares.
+// Combines the spheres of a caster. xyz is the sum of the directions to the spheres, weighted by the shares
+// of the hemisphere that they cover. w is the sum of these shares.
 vec4 nook_joint_sight(uint first, uint count, NookPoint point) {
   vec4 joint = vec4(0.0);
   for (uint begin = 0u; begin < count; begin += nook_tile_size) {

@@ -1,4 +1,4 @@
-// Derives the colours of all key points from those key points that a coarser level of detail evaluates. There
+// Computes the colours of all key points from the key points that a coarser level of detail evaluates. There
 // is one thread for each key point; the y coordinate is the instance.
 #include "shaders/character/instance.glsl"
 

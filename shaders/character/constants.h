@@ -1,5 +1,5 @@
-// Constants of formulas in sdk/src/character (kernel.h, directional_occlusion.h) and in these shaders; the
-// headers describe them. C++ and GLSL both include this file.
+// Constants of the formulas in sdk/src/character (kernel.h, directional_occlusion.h) and in these shaders.
+// The headers describe the formulas. C++ and GLSL both include this file.
 #ifndef NOOK_CHARACTER_CONSTANTS_H
 #define NOOK_CHARACTER_CONSTANTS_H
 
@@ -8,7 +8,7 @@
 #define NOOK_KERNEL_NOOK 1
 #define NOOK_KERNEL_RATIONAL 2
 
-#define NOOK_MIN_SPHERE_RADIUS 1e-6  // metres; smaller radii are treated as this one
+#define NOOK_MIN_SPHERE_RADIUS 1e-6  // metres; a smaller radius is replaced by this one
 #define NOOK_KERNEL_CORE 0.6
 
 // form_factor_fast: the absolute values of the coefficients of the polynomial P(b, t).

@@ -8,8 +8,8 @@
 // shaders/character/light_layout.h defines the layout.
 uniform NOOK_TEXELS nook_scene_lights;
 
-// Returns the irradiance of the lobes on an open surface. Lobes that were fitted to probes may ring slightly
-// below 0. Negative values are clamped to 0.
+// Returns the irradiance of the lobes on an open surface. The sum of lobes that were fitted to probes can be
+// slightly negative. Negative values are clamped to 0.
 vec3 nook_scene_open_irradiance(int light, vec3 normal_ws) {
   int count = int(nook_texel(nook_scene_lights, light + NOOK_LIGHT_HEAD).x);
   vec3 sum = vec3(0.0);

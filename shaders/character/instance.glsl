@@ -1,9 +1,10 @@
-// Declares the buffer and the record in which compute passes find an instance's data. Positions are relative
-// to the instance's origin, so that a scene far from the world's origin keeps its precision.
+// Declares the buffer from which compute passes read an instance's data, and the record that tells where the
+// data are. Positions are relative to the instance's origin, so that a scene far from the world's origin
+// keeps its precision.
 #include "shaders/character/constants.h"
 #include "shaders/character/layout.h"
 
-// The data that the CPU uploads for an update of the chunk: records, bones, casters and lights, with floats
+// The data that the CPU uploads for an update of the chunk: records, bones, casters and lights. Floats are
 // stored as their bits. The first_* fields of a record are indices into this stream, except for first_sphere.
 layout(std430, binding = NOOK_BINDING_STREAM) readonly buffer NookStream {
   uvec4 nook_stream[];
@@ -14,7 +15,7 @@ struct NookRecord {
   uint first_sphere;  // index into the scene's spheres
   uint place;         // index of the instance in its chunk
   bool self;          // true if the instance's own spheres darken it
-  uint light;         // index of a light with the layout of light_layout.h; 0: no light
+  uint light;         // index of the light, whose layout is in light_layout.h; 0: no light
   uint first_caster, caster_count;
   uint first_exact, exact_count;
 };

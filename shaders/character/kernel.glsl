@@ -12,8 +12,8 @@ float nook_shadow_term(float xi, float delta2) {
   float inside = max(-e, 0.0);
   return (0.75 + 6.0 * inside) / (1.0 + 4.0 * max(e, inside)) * nook_visibility_paper(xi);
 #elif NOOK_KERNEL_FORM == NOOK_KERNEL_NOOK
-  // Below the horizon, xi + sqrt(xi^2 + 1) cancels. max() prevents a negative result of rounding, which the
-  // powers could not handle.
+  // Far below the horizon, xi + sqrt(xi^2 + 1) is a small difference of large values. max() ensures that
+  // rounding does not make it negative, because pow needs a non-negative base.
   float t = inversesqrt(delta2 + NOOK_KERNEL_CORE);
   return max(0.5 * (xi + sqrt(xi * xi + 1.0)), 0.0) * t * t * t;
 #else
@@ -21,7 +21,7 @@ float nook_shadow_term(float xi, float delta2) {
 #endif
 }
 
-// Powers for the norm (slide 20). The common exponents are computed without a logarithm.
+// Returns y^gamma for the norm (slide 20). Common exponents are computed without a logarithm.
 float nook_raised(float y, float gamma) {
   if (gamma == 1.5) return y * sqrt(y);
   if (gamma == 2.0) return y * y;
@@ -31,7 +31,8 @@ float nook_raised(float y, float gamma) {
 float nook_norm_root(float sum, float gamma) { return sum > 0.0 ? pow(sum, 1.0 / gamma) : 0.0; }
 float nook_saturated(float norm, float c) { return norm / (1.0 + c * norm); }
 
-// acos within 7e-5 (Abramowitz and Stegun 4.4.45). GLSL does not specify the precision of its own acos.
+// Returns acos(x) with an error of at most 7e-5 (Abramowitz and Stegun 4.4.45). The precision of GLSL's own
+// acos is not specified.
 float nook_arc_cosine(float x) {
   float a = abs(x);
   float r = sqrt(max(1.0 - a, 0.0)) * (1.5707288 + a * (-0.2121144 + a * (0.0742610 - 0.0187293 * a)));
@@ -56,8 +57,8 @@ float nook_form_factor_exact(float xi, float delta2) {
 // reason for the formula.
 float nook_solid_depth(float d) { return d + NOOK_SOLID_DEPTH * d * d; }
 
-// Approximates nook_form_factor_exact without inverse trigonometric functions. It is used for the many
-// spheres of a caster. sdk/src/character/kernel.h derives the approximation.
+// Approximates nook_form_factor_exact without inverse trigonometric functions. Casters use it, because they
+// have many spheres. sdk/src/character/kernel.h derives the approximation.
 float nook_form_factor_fast(float xi, float delta2) {
   float a = inversesqrt(max(delta2, 1.0));
   float a2 = a * a;

@@ -18,14 +18,16 @@ layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookKeyPoints {
 };
 
 layout(location = NOOK_LOCATION_FIRST_RECORD) uniform uint nook_first_record;
-layout(location = NOOK_LOCATION_FIRST_SPHERE) uniform uint nook_first_sphere;  // first sphere of the level of detail,
-                                                                               // relative to the instance's spheres
+layout(location = NOOK_LOCATION_FIRST_SPHERE) uniform uint nook_first_sphere;  // first sphere of the level of
+                                                                               // detail, relative to the
+                                                                               // instance's first sphere
 layout(location = NOOK_LOCATION_SPHERE_COUNT) uniform uint nook_sphere_count;
 layout(location = NOOK_LOCATION_FIRST_KEY_POINT) uniform uint nook_first_key_point;  // first key point of the level of detail
 layout(location = NOOK_LOCATION_KEY_POINT_COUNT) uniform uint nook_key_point_count;
 layout(location = NOOK_LOCATION_GAMMA) uniform float nook_gamma;
-layout(location = NOOK_LOCATION_COMPOSED) uniform int nook_composed;  // 0: the casters' spheres are in the same
-                                                                      // norm as the body's own spheres
+layout(location = NOOK_LOCATION_COMPOSED) uniform int nook_composed;  // 0: the paper's form, where one norm
+                                                                      // sums the spheres of the casters and
+                                                                      // of the body itself
 layout(location = NOOK_LOCATION_SHADOW_STRIDE) uniform uint nook_shadow_stride;
 layout(location = NOOK_LOCATION_SHADOW_OFFSET) uniform uint nook_shadow_offset;  // offset within the instance's shadows
 
@@ -36,7 +38,8 @@ struct NookPoint {
   vec3 position, normal;
 };
 
-// Returns the sphere's height above the horizon and its squared distance, both in units of its radius.
+// Returns the sphere's height above the key point's horizon divided by the radius, and its squared distance
+// divided by the squared radius.
 vec2 nook_see(vec4 sphere, NookPoint point) {
   vec3 d = (sphere.xyz - point.position) * sphere.w;
   return vec2(dot(d, point.normal), dot(d, d));
@@ -54,7 +57,8 @@ void nook_stage(uint first, uint count) {
   barrier();
 }
 
-// Blends up to four bones linearly. The normal is renormalised. If opposite bones cancel it, it stays zero.
+// Blends up to four bones linearly. The normal is renormalised. If bones with opposite rotations make it
+// zero, it stays zero.
 void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPoint surface) {
   uint k = uint(NOOK_KEY_POINT_VEC4S) * key_point;
   vec4 bones = nook_rest_key_point[k + 4u], weights = nook_rest_key_point[k + 5u];
@@ -77,7 +81,7 @@ void nook_pose(uint key_point, uint first_bone, out NookPoint fitted, out NookPo
   }
 }
 
-// Returns the shadow of a key point whose spheres have the sum of terms `sum`.
+// Returns the shadow of a key point. `sum` is the sum of the terms of its spheres.
 float nook_shadow_of(float sum, uint key_point) {
   float saturation = nook_rest_key_point[uint(NOOK_KEY_POINT_VEC4S) * (nook_first_key_point + key_point)].w;
   return nook_saturated(nook_norm_root(sum, nook_gamma), saturation);

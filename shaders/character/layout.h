@@ -31,8 +31,8 @@
 #define NOOK_LOCATION_COMPOSED 6
 #define NOOK_LOCATION_SHADOW_STRIDE 7
 #define NOOK_LOCATION_SHADOW_OFFSET 8
-// Uniform locations of the passes that derive all key points of a coarser level (spread.comp,
-// colours_spread.comp).
+// Uniform locations of the passes that compute all key points from the evaluated key points of a coarser
+// level (spread.comp, colours_spread.comp).
 #define NOOK_LOCATION_SPREAD_FIRST_RECORD 0
 #define NOOK_LOCATION_SPREAD_KEY_POINT_COUNT 1
 #define NOOK_LOCATION_SPREAD_SHADOW_STRIDE 2
@@ -76,8 +76,8 @@
 #define NOOK_RECORD_SELF 0x80000000u
 // This flag is set if the instance's pose is on the GPU. pose_place.comp then writes its bones.
 #define NOOK_RECORD_POSED 0x40000000u
-// If clip_bones.comp decodes the bones of the instance, these bits contain the number of its clips. The clips
-// of each model are numbered from 1.
+// If clip_bones.comp decodes the bones of the instance, these bits contain the number that identifies its
+// clips. Numbers start at 1 for each model.
 #define NOOK_RECORD_CLIPS_SHIFT 20
 #define NOOK_RECORD_CLIPS_MASK 0x3ffu
 #define NOOK_RECORD_PLACE 0xfffffu

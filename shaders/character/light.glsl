@@ -15,7 +15,8 @@ float nook_lobe_norm(float v) {
   return q / (v * q + 1.0);
 }
 
-// Returns the mean of the lobes under the density exp(dot(b, s)), without the parts that the ground hides.
+// Returns the mean radiance of the lobes, weighted by the density exp(dot(b, s)). Light that the ground hides
+// is not included.
 vec3 nook_mean_radiance(uint light, vec3 b) {
   float length_b = length(b);
   int count = int(nook_light(light, NOOK_LIGHT_HEAD).x);
@@ -108,7 +109,7 @@ vec3 nook_light_of(uint light, NookBands bands) {
   return sum;
 }
 
-// Sums the terms, each multiplied by the light that it removes.
+// Returns the sum of the terms of the spheres, each multiplied by the relative light that its sphere removes.
 vec3 nook_coloured_sum(uint light, NookBands gathered, vec3 n) {
   NookBands open = NookBands(0.0, vec3(0.0), vec3(0.0), vec3(0.0));
   nook_gather(open, n * NOOK_COSINE_LOBE_SHARPNESS, 1.0);

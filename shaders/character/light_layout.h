@@ -3,9 +3,10 @@
 #ifndef NOOK_CHARACTER_LIGHT_LAYOUT_H
 #define NOOK_CHARACTER_LIGHT_LAYOUT_H
 
-// The first texel of a light holds the number of lobes and the ground's normal. The second holds the lower
-// bound of the mean radiance, and 1 if there is a ground. Then come ten texels with the light's bands. Then
-// come two texels for each lobe: axis and sharpness; amplitude and the share that the ground does not hide.
+// The first texel of a light contains the number of lobes and the ground's normal. The second contains the
+// lower bound of the mean radiance, and 1 if there is a ground. Then come ten texels with the light's bands.
+// Then come two texels for each lobe. One contains axis and sharpness, the other the amplitude and the share
+// of the lobe that the ground does not hide.
 #define NOOK_LIGHT_HEAD 0
 #define NOOK_LIGHT_DARKEST 1
 #define NOOK_LIGHT_SCALAR 2

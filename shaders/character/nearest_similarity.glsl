@@ -1,8 +1,8 @@
 // Removes shear and uneven scale from the matrix of a bone, as sdk/src/character/pose_source.cpp and
 // sdk/src/core/affine.cpp do in double precision. A matrix is given by its three columns.
 
-// Returns true if the matrix has almost a uniform scale and almost no shear. Exporters and rounding cause
-// such small deviations. The caller then uses the matrix unchanged.
+// Returns true if the caller should use the matrix unchanged, because its scale is almost uniform and it has
+// almost no shear. Exporters and rounding cause such small deviations.
 bool nook_is_kept(mat3 axes) {
   vec3 squared = vec3(dot(axes[0], axes[0]), dot(axes[1], axes[1]), dot(axes[2], axes[2]));
   float shortest = min(squared.x, min(squared.y, squared.z));
@@ -11,8 +11,8 @@ bool nook_is_kept(mat3 axes) {
   return shortest > 0.0 && 0.5 * (longest / shortest - 1.0) <= 1e-4 && shear <= 1e-4 * longest;
 }
 
-// Returns a rotation that is computed from the first two columns. If a column vanishes, another direction
-// replaces it.
+// Returns a rotation that is computed from the first two columns. If a column becomes 0, it is replaced by
+// another direction.
 mat3 nook_gram_schmidt(mat3 a) {
   float size = length(a[0]);
   vec3 x = size > 1e-6 ? a[0] / size : vec3(1.0, 0.0, 0.0);
@@ -28,7 +28,7 @@ vec3 nook_turned(vec3 axis, float angle, vec3 v) {
 }
 
 // Uses equation 7 of Mueller, Bender, Chentanez, Macklin 2016, "A Robust Method to Extract the Rotational
-// Part of Deformations". The precision of floats is 1e-7, so the loop ends earlier than on the CPU.
+// Part of Deformations". On the GPU, the precision is only 1e-7, so the loop ends earlier than on the CPU.
 mat3 nook_nearest_rotation(mat3 a) {
   mat3 r = nook_gram_schmidt(a);
   for (int turn = 0; turn < 60; ++turn) {
@@ -50,7 +50,7 @@ mat3 nook_nearest_similarity(mat3 axes) {
   // If the matrix mirrors, solves the mirrored problem instead: x is negated before and after the matrix.
   float side = dot(a[0], cross(a[1], a[2])) < -1e-6 ? -1.0 : 1.0;
   mat3 flip = mat3(side, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0);
-  // Only the x of the columns is negated. This does not change the scale.
+  // Negates only the x of the columns, which does not change the scale.
   mat3 upright = a * flip;
   mat3 r = nook_nearest_rotation(upright);
   float scale = (dot(upright[0], r[0]) + dot(upright[1], r[1]) + dot(upright[2], r[2])) / 3.0 * norm;

@@ -9,18 +9,18 @@ layout(local_size_x = NOOK_GROUP_SIZE) in;
 // The buffer begins with four elements for each bone. The first three are the rows of the matrix by which the
 // bone's transform is multiplied. The fourth contains the position of the bone's joint in rest space, and the
 // index of the bone's transform. Then come five elements for each instance. The first three are the rows of
-// the instance's place, relative to its origin. The x of the fourth is the first word of its transforms, y is
-// the window that contains this word, and z is its place in the chunk. w is the first element of its earlier
-// bones, or 0 if there are none. The fifth is the vector that earlier bones must be moved by, because the
-// origin has changed. The earlier bones come last.
+// the instance's place, relative to its origin. In the fourth, x is the first word of the instance's
+// transforms, y is the window that contains this word, and z is the instance's place in the chunk. w is the
+// first element of the instance's earlier bones, or 0 if there are none. The fifth is the vector by which
+// earlier bones must be moved, because the origin of the instance has changed. The earlier bones come last.
 layout(std430, binding = NOOK_BINDING_STREAM) readonly buffer NookJobs {
   uvec4 nook_job[];
 };
 layout(std430, binding = NOOK_BINDING_MODEL) readonly buffer NookTransforms {
   uint nook_word[];
 };
-// For each place of the chunk: one element, whose x is 1 if the pose contains a value that is not finite or
-// too large; then three rows for each bone.
+// For each place of the chunk, there is first one element, whose x is 1 if the pose contains a value that is
+// not finite or too large. Then come three rows for each bone.
 layout(std430, binding = NOOK_BINDING_SPHERES) buffer NookPosed {
   vec4 nook_posed[];
 };
@@ -52,8 +52,8 @@ vec3 nook_three(uint word, uint index) {
 }
 
 // Returns the rows of a transform: a scale, then a rotation by a quaternion of any length, then a
-// translation. The quaternion is not normalised first. Dividing by its squared length has fewer rounding
-// errors.
+// translation. Instead of normalising the quaternion, the rotation is divided by its squared length, which
+// causes fewer rounding errors.
 NookRows nook_of_quaternion(vec4 q, vec3 scale, vec3 move) {
   float s = 2.0 / dot(q, q);
   vec3 x = vec3(1.0 - s * (q.y * q.y + q.z * q.z), s * (q.x * q.y - q.z * q.w), s * (q.x * q.z + q.y * q.w));
@@ -91,9 +91,9 @@ NookRows nook_product(NookRows a, NookRows b) {
   return NookRows(nook_row_product(a.x, b), nook_row_product(a.y, b), nook_row_product(a.z, b));
 }
 
-// Compares the bits of floats as integers. For positive floats, both comparisons give the same order, and
-// infinities and NaN come after all finite numbers. A comparison of floats is not safe, because compilers may
-// assume that NaN does not occur.
+// Compares the bits of floats as integers. For positive floats, both comparisons give the same result. As
+// integers, infinities and NaN are larger than all finite floats. A comparison of floats is not safe, because
+// compilers may assume that NaN does not occur.
 bool nook_is_within(vec4 row) {
   uvec4 bits = floatBitsToUint(row) & 0x7fffffffu;
   uint scale = floatBitsToUint(NOOK_POSE_MAX_SCALE), metres = floatBitsToUint(NOOK_POSE_MAX_METRES);

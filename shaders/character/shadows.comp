@@ -35,7 +35,7 @@ float nook_depth(uint first, uint count, NookPoint point) {
 
 void main() {
   NookRecord record = nook_read_record(nook_first_record + gl_WorkGroupID.y);
-  // Threads after the last key point evaluate the last key point, too, so that all threads reach every
+  // Threads beyond the last key point evaluate the last key point again, so that all threads reach every
   // barrier.
   uint key_point = min(gl_GlobalInvocationID.x, nook_key_point_count - 1u);
   NookPoint fitted, surface;

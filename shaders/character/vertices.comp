@@ -39,7 +39,7 @@ layout(location = NOOK_LOCATION_VERTEX_SHADOW_STRIDE) uniform uint nook_shadow_s
 #define NOOK_ADDED float
 #endif
 
-// Adds the share of a key point. `weights` are its alpha and its blend weight.
+// Adds the contribution of a key point. `weights` are its alpha and its blend weight.
 void nook_add(inout NOOK_SHADOW shadow, inout NOOK_ADDED added, uint key_point, vec2 weights) {
 #if NOOK_OUTPUT == NOOK_OUTPUT_COLOUR
   vec4 coloured = nook_colour[uint(NOOK_COLOUR_VEC4S) * key_point];

@@ -1,6 +1,6 @@
 // The linear layer for OpenGL 3.3. It reads the shadows at key points from a texture buffer, and writes AO by
-// transform feedback. Each file vertex is drawn as one point. Its index selects the welded vertex, which has
-// the attributes.
+// transform feedback. Each file vertex is drawn as one point. Its index selects the welded vertex, whose
+// attributes the shader reads.
 #include "shaders/character/layout.h"
 #include "shaders/character/linear.glsl"
 #include "shaders/core/texels.glsl"

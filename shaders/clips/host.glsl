@@ -9,8 +9,8 @@ vec4 nook_clip_texel(highp sampler2D table, int number) {
   return texelFetch(table, ivec2(number & (NOOK_TEXEL_ROW - 1), number >> NOOK_TEXEL_ROW_SHIFT), 0);
 }
 
-// Returns the AO of the character alone, in [0, 1]. Pass the frames and the share that nook_clips_frames
-// returns.
+// Returns the AO that the character itself causes, in [0, 1]. Pass the frames and the share that
+// nook_clips_frames returns.
 float nook_clip_ao(int vertex, ivec2 frames, float share) {
   ivec2 weights = frames * nook_clip_vec4s;
   int modes = vertex * nook_clip_vec4s;

@@ -1,5 +1,5 @@
 // Constants of spherical Gaussians, for sdk/src/core/spherical_gaussian.h and for shaders. The header
-// describes them. Both C++ and GLSL include this file.
+// describes the formulas. Both C++ and GLSL include this file.
 #ifndef NOOK_CORE_CONSTANTS_H
 #define NOOK_CORE_CONSTANTS_H
 

@@ -24,8 +24,8 @@ vec2 nook_material_relief(vec2 uv, vec3 view, float level) {
 }
 #endif
 
-// Computes the mean light modes of several places for the view. On a relief, each place is first moved to the
-// point that the view's ray through it hits.
+// Computes the mean light modes of several places for the view. If there is a relief, each place is first
+// replaced by the point where the view's ray through the place hits the relief.
 void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   vec2 place = nook_parabolic_place(view, NOOK_BTF_SIDE);
   ivec2 cell = min(ivec2(place), ivec2(NOOK_BTF_SIDE - 1));
@@ -49,8 +49,8 @@ void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[N
   }
 }
 
-// Computes the light modes at the point uv for the view. dx and dy are the derivatives of uv along the pixel's
-// sides, over which the function filters.
+// Computes the light modes at the point uv for the view. dx and dy are the derivatives of uv along the
+// pixel's sides. The function filters over the pixel.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_one_fetch(uv, dx, dy, NOOK_BTF_TEXELS), view, modes);
 }

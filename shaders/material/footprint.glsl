@@ -1,5 +1,5 @@
-// Finds the places of the tile that a pixel reads. sdk/src/material/footprint.h describes them and has the
-// same functions.
+// Finds the places in the material's tile at which a pixel reads it. sdk/src/material/footprint.h describes
+// them and has the same functions.
 
 // The pixel's value is the mean over the first `count` places. All places have the same mipmap level.
 struct NookMaterialFetches {
@@ -24,7 +24,7 @@ NookMaterialFetches nook_material_fetches_along(vec2 uv, vec2 dx, vec2 dy, vec2 
   float xx = dot(across, across), yy = dot(up, up), xy = dot(across, up);
   float mean = 0.5 * (xx + yy), half_difference = 0.5 * (xx - yy);
   float from_mean = sqrt(half_difference * half_difference + xy * xy), longer2 = mean + from_mean;
-  // This is false if a derivative is NaN.
+  // This is also false if a derivative is NaN.
   bool is_in_range = longer2 < 1e18;
   NookMaterialFetches at;
   at.count = clamp(fetches, 1, NOOK_MATERIAL_MAX_FETCHES);

@@ -1,8 +1,8 @@
 // Computes mipmap levels, and finds cells of view maps.
 #include "shaders/material/parabolic.glsl"
 
-// Returns the mipmap level for a pixel with the derivatives dx and dy. All fetches use this level explicitly.
-// This is faster than implicit derivatives, and it also works inside branches.
+// Returns the mipmap level for a pixel with the derivatives dx and dy. All fetches specify this level. This
+// is faster than implicit derivatives, and also works inside branches.
 float nook_mipmap_level(vec2 dx, vec2 dy, vec2 texels) {
   dx *= texels;
   dy *= texels;
@@ -29,8 +29,9 @@ vec4 nook_material_blended(highp sampler2DArray coefficients, NookMaterialCell c
          texelFetch(coefficients, ivec3(c.y, layer), 0) * c.weight_y;
 }
 
-// The terms of a tensor for a view: the cell of the view, and cluster indices. `clusters` has the four terms
-// that are currently evaluated. `last` has the last four, which include the code of the cell's neighbours.
+// Stores the cell of a view in a tensor, and the cluster indices of its terms. `clusters` contains the four
+// indices that are currently evaluated. `last` contains the last four values, which include the code of the
+// cell's neighbours.
 struct NookMaterialTerms {
   NookMaterialCell cell;
   uvec4 clusters, last;

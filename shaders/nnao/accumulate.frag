@@ -1,7 +1,7 @@
-// Averages the AO of a frame with the mean of the previous frames. The camera matrices and the host's motion
-// vectors give the position of a texel's surface in the earlier frame. Of the four texels around this
-// position, only the texels that show the same surface are used. sdk/src/nnao/history.h has the same functions
-// for the CPU.
+// Averages the AO of a frame with the mean of the previous frames. The position of a texel's surface in the
+// earlier frame is computed from the camera matrices and the host's motion vectors. Of the four texels around
+// this position, only the texels that show the same surface are used. sdk/src/nnao/history.h has the same
+// functions for the CPU.
 #include "shaders/nnao/depth.glsl"
 #include "shaders/nnao/host_images.glsl"
 
@@ -18,10 +18,11 @@ out vec4 nook_out;
 #define nook_max_frames nook_earlier[NOOK_EARLIER_SIZE].z    // maximum number of frames in the mean; 1: the history is ignored
 #define nook_has_motion (nook_earlier[NOOK_EARLIER_SIZE].w != 0.0)
 #define nook_motion_scale nook_earlier[NOOK_EARLIER_MOTION].xy  // texels of the surface per unit of the motion texture
-#define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // how much the noise of the taps can move AO away from its mean
+#define nook_noise_reach nook_earlier[NOOK_EARLIER_MOTION].z    // the approximate amplitude of the noise that
+                                                                // the taps cause in AO
 
-// Splits AO in [0, 1] into the nearest 255th, which the filter reads, and the remainder. With only 8 bits, a
-// mean over many frames would stop changing.
+// Splits AO in [0, 1] into the nearest 255th, which the filter reads, and the remainder. Both parts together
+// have enough precision for a mean over many frames. With only 8 bits, the mean would stop changing.
 vec4 nook_packed(float ao, float edges, float frames) {
   float step = floor(255.0 * ao + 0.5);
   return vec4(step, 255.0 * edges, floor(127.5 + 254.0 * (255.0 * ao - step)), frames) / 255.0;
@@ -36,14 +37,14 @@ vec3 nook_earlier_position(vec3 position) {
   return vec3(dot(nook_earlier[0], p), dot(nook_earlier[1], p), dot(nook_earlier[2], p));
 }
 
-// Returns the change of depth to the neighbouring texel on the flatter side of an axis.
+// Of the changes of depth to both neighbours along an axis, returns the smaller one.
 float nook_flat_step(float depth, float before, float after) {
   return min(abs(before - depth), abs(after - depth));
 }
 
 // Returns the range to which earlier AO is clamped. It is the mean of the texels that the edges connect, plus
-// and minus twice their standard deviation (at least 0.06). It is also limited to the noise of the taps around
-// the texel's own AO, which preserves thin lines. The clamp prevents trails behind moving objects.
+// and minus twice their standard deviation (at least 0.06). It is also limited to the texel's own AO plus and
+// minus the noise of the taps, which preserves thin lines. The clamp prevents trails behind moving objects.
 vec2 nook_likely_range(ivec2 texel, vec2 centre) {
   ivec2 low = max(texel - 1, ivec2(0)), high = min(texel + 1, nook_surface_size - 1);
   uint bits = uint(255.0 * centre.g + 0.5);
@@ -70,7 +71,7 @@ vec2 nook_earlier_ao(ivec2 texel, float depth) {
 #endif
     place = vec2(texel) - nook_motion_scale * nook_host_texel(nook_motion, pixel).rg;
   }
-  // The condition is also true for NaN, because comparisons with NaN are false.
+  // This also returns for NaN, because comparisons with NaN are false.
   if (!(all(greaterThan(place, vec2(-1.0))) && all(lessThan(place, nook_earlier_last + 1.0)))) return vec2(0.0);
   float slope = nook_flat_step(depth, nook_depth_near(texel - ivec2(1, 0)), nook_depth_near(texel + ivec2(1, 0))) +
                 nook_flat_step(depth, nook_depth_near(texel - ivec2(0, 1)), nook_depth_near(texel + ivec2(0, 1)));

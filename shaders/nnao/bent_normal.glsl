@@ -1,7 +1,7 @@
-// Encodes the bent normal in two channels beside AO and edges. The code is the two coordinates of the unit
-// vector in the plane perpendicular to the direction to the viewer, with 8 bits each. Filters can average
-// these coordinates directly. A bent normal that points away from the viewer is turned to the nearest
-// direction that does not.
+// Encodes the bent normal in two channels beside AO and edges. The code consists of two coordinates of the
+// unit vector, with 8 bits each. They are its coordinates in the plane perpendicular to the direction to the
+// viewer. Filters can average these coordinates directly. If a bent normal points away from the viewer, it is
+// replaced by the nearest direction in that plane.
 #include "shaders/nnao/frame.glsl"
 
 // Maps coordinates in [-1, 1] to [0, 1] for storage in 8 bits. The coordinate 0 is represented exactly.

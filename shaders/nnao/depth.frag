@@ -1,6 +1,5 @@
 // Writes the linear depth of the surface, for every pixel or for every second pixel of every second row.
-// Decoding the host's depth takes a division, and later stages read depth many times, so it is decoded only
-// once here.
+// Decoding the host's depth takes a division. Later stages read depth many times, so it is decoded here once.
 #include "shaders/nnao/host_depth.glsl"
 
 // NOOK_NO_SURFACE_ABOVE is a threshold. Where the weight of the host's layer is above it, there is no surface.

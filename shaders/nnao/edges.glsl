@@ -1,5 +1,5 @@
 // Computes how steeply depth changes from a texel to its neighbours, and which neighbours are on the same
-// surface. The second result is stored in 8 bits beside AO, where the filter reads it.
+// surface. Which neighbours are on the same surface is stored in 8 bits beside AO, for the filter.
 #include "shaders/nnao/depth.glsl"
 
 // The components are the neighbours on the left, on the right, below and above.
@@ -8,7 +8,7 @@ struct NookNeighbours {
   // a plane, the slopes on both sides of an axis are equal, because 1 / depth (orthographic: depth) is linear
   // on the screen.
   vec4 slope;
-  vec4 connected;  // 1: on the same surface; 0: an edge, or no neighbour
+  vec4 connected;  // 1: the neighbour is on the same surface; 0: there is an edge, or no neighbour
 };
 
 NookNeighbours nook_neighbours_of(ivec2 texel, float depth) {
@@ -16,11 +16,11 @@ NookNeighbours nook_neighbours_of(ivec2 texel, float depth) {
                      nook_depth_near(texel - ivec2(0, 1)), nook_depth_near(texel + ivec2(0, 1)));
   NookNeighbours found;
   found.slope = (depths - depth) / (nook_spread.x * depths + nook_spread.y) * vec4(-1.0, 1.0, -1.0, 1.0);
-  // Beyond the border of the screen the surface is assumed to continue.
+  // The surface is assumed to continue beyond the border of the screen.
   vec4 inside = vec4(vec2(texel), nook_surface_last - vec2(texel)).xzyw;
   found.slope = mix(found.slope.yxwz, found.slope, greaterThan(inside, vec4(0.0)));
-  // There is an edge if depth differs both from the neighbour's depth and from the straight line through the
-  // neighbours on both sides.
+  // There is an edge if the texel's depth differs from the neighbour's depth, and also from the depth of the
+  // straight line through the neighbours on both sides.
   vec4 bend = 0.5 * abs(found.slope.xxzz - found.slope.yyww);
   vec4 off = min(abs(found.slope), bend) * nook_edge_scale(depth);
   found.connected = min(clamp(1.25 - off, 0.0, 1.0), inside);

@@ -1,7 +1,7 @@
 // A bilateral filter along one axis of the screen. Applied along x and then along y, it averages 5 x 5 texels
-// with the weights 1, 2, 3, 2, 1 along each axis. The noise of the taps repeats every three texels, and with
-// these weights all its values have the same total weight. A texel takes part only if it is connected to the
-// centre without an edge in between, and if its AO is similar.
+// with the weights 1, 2, 3, 2, 1 along each axis. The noise of the taps repeats every three texels. With
+// these weights, all values of the noise have the same total weight. A texel is only used if there is no edge
+// between it and the centre, and if its AO is similar.
 uniform sampler2D nook_ao;  // AO, edges, and the bent normal in passes that have it
 
 #ifdef NOOK_FILTER_ALONG_Y
@@ -11,15 +11,15 @@ const uint nook_back_bit = 2u, nook_ahead_bit = 0u;
 const ivec2 nook_filter_step = ivec2(1, 0);
 const uint nook_back_bit = 6u, nook_ahead_bit = 4u;
 #endif
-// The filter along x reads texels that are not filtered yet. With nine taps they are too noisy for a
-// comparison. With more taps, the sharpness of the comparison is halved.
+// The filter along x reads texels that are not filtered yet. With nine taps, their AO is too noisy to be
+// compared. With more taps, it is compared with half the sharpness.
 #ifdef NOOK_FILTER_ALONG_Y
 #define NOOK_FILTER_SHARPNESS nook_range_sharpness
 #elif NOOK_DIRECTIONS > 3
 #define NOOK_FILTER_SHARPNESS (0.5 * nook_range_sharpness)
 #endif
 
-// Returns one of the four edges that a value of nook_ao contains, as 0 to 3.
+// Each value of nook_ao contains four edges. Returns one of them, as a number from 0 to 3.
 float nook_edge(vec4 texel, uint bit) {
   return float(uint(255.0 * texel.g + 0.5) >> bit & 3u);
 }

@@ -1,6 +1,6 @@
-// Values that are the same for all pixels of a frame. nnao_frame.h computes them. Pixel coordinates are
-// relative to the viewport, with (0, 0) at its lower left corner. The surface is the viewport at the
-// resolution of AO: every pixel, or every second pixel of every second row.
+// Values that are the same for all pixels of a frame. sdk/src/gl/nnao/frame_constants.cpp computes them.
+// Pixel coordinates are relative to the viewport, with (0, 0) at its lower left corner. The surface is the
+// viewport at the resolution of AO: every pixel, or every second pixel of every second row.
 #include "shaders/nnao/layout.h"
 uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 
@@ -51,7 +51,8 @@ float nook_extent(float depth) {
   return nook_spread.x * depth + nook_spread.y;
 }
 
-// Returns the extent at a depth, divided by the change of depth that is treated as an edge there.
+// Returns the extent at a depth, divided by the smallest change of depth that is treated as an edge at this
+// depth.
 float nook_edge_scale(float depth) {
   return nook_extent(depth) * nook_edges_per_metre + nook_edges_per_extent;
 }
@@ -70,10 +71,10 @@ vec2 nook_pixel_scale(float depth) {
   return 1.0 / (nook_surface_rays.xz * nook_extent(depth));
 }
 
-// Returns the radius of a pixel in metres and in texels, and the factor by which the pixel's darkness (1 - AO)
-// is multiplied. The radius is reduced if it covers too many texels, and enlarged if it covers too few. If it
-// is enlarged, an occluder darkens more texels; the factor keeps the total darkness the same. The factor also
-// contains the fade with distance.
+// Returns the radius of a pixel in metres and in texels, and the factor by which the pixel's darkness (1 -
+// AO) is multiplied. The radius is reduced if it covers too many texels, and enlarged if it covers too few.
+// If it is enlarged, an occluder darkens more texels, and the factor keeps the total darkness the same. The
+// factor also contains the fade with distance.
 vec3 nook_pixel_radius(vec2 scale, float depth) {
   float per_metre = abs(scale.y), wanted = nook_radius * per_metre;
   float texels = clamp(wanted, nook_min_radius_px, nook_max_radius_px);

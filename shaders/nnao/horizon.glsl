@@ -1,8 +1,8 @@
 // Evaluates the horizon form of the network; network.h defines it. Four units are stored in one vec4. The
-// layers are tap, direction, join and out, in the order of network.h. Where the network has a mean, the shader
-// computes a sum, and the weights include the division.
+// layers are tap, direction, join and out, in the order of network.h. Where the network has a mean, the
+// shader computes a sum, because the weights already include the division.
 uniform vec4 nook_network[NOOK_HORIZON_VEC4S];
-// The number of directions. If it is large, it is a uniform instead of a constant. Otherwise compilers would
+// The number of directions. If there are many, the number is a uniform. With a constant, compilers would
 // unroll the loop into more code than fits into the instruction cache.
 #if NOOK_DIRECTIONS > 4
 uniform int nook_tap_groups;
@@ -57,7 +57,7 @@ struct NookSums {
 };
 
 // Adds the taps of one direction to the sums. `direction` is a unit vector in view space. `gate` and
-// `bent_gate` are the parts of the gates that are the same for all directions.
+// `bent_gate` are the contributions to the gates that are the same for all directions.
 void nook_add_direction(inout NookSums sums, NookCentre centre, vec2 direction, vec2 scale, vec4 gate, vec2 bent_gate) {
   vec2 along_px = nook_horizon_tap(direction, 1.0, scale);
   NookHorizon found = NookHorizon(vec4(0.0), vec4(0.0), 0.0);
@@ -93,9 +93,9 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   centre.normal = normal;
   centre.viewer = nook_to_viewer(position);
   centre.half_nearness = 0.5 / radius.x;
-  // At the border of the screen, a tap can be clamped to the pixel itself. Its v should be 0, and the rounding
-  // error would act as a random direction. So distances are raised to half a pixel, which is less than the
-  // distance of any other pixel for fields of view up to 120 degrees.
+  // At the border of the screen, a tap can be clamped to the pixel itself. Its v should be 0 but is a
+  // rounding error, which would act like a random direction. So all distances are raised to at least half a
+  // pixel. For fields of view up to 120 degrees, all other pixels are farther away than this.
   float half_pixel = 0.5 / max(abs(scale.x), abs(scale.y));
   centre.min_squared = half_pixel * half_pixel;
   for (int i = 0; i < NOOK_STEPS; ++i) centre.steps_px[i] = nook_step_distance(i, NOOK_STEPS, noise, radius.y);

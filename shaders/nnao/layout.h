@@ -48,9 +48,9 @@
 // Values of nook_gbuffer_ao. In the modes from REPLACE on, the layer has a weight.
 #define NOOK_LAYER_MIN 1
 #define NOOK_LAYER_REPLACE 3
-// If the weight of a layer is above these limits, there is no surface. The first limit is for layers that the
-// screen-space pass excludes. The second is for layers that replace AO, where at most one 8-bit step of the
-// surface's own AO would remain.
+// If the weight of a layer is above these limits, there is no surface. The first limit is for layers whose
+// pixels the screen-space pass excludes. The second is for layers that replace AO: above it, at most one
+// 8-bit step of the surface's own AO would remain.
 #define NOOK_EXCLUDED_ABOVE 0.5
 #define NOOK_REPLACED_ABOVE 0.998
 
@@ -82,8 +82,8 @@
 #define NOOK_HORIZON_BENT (NOOK_HORIZON_OUT + 1)
 #define NOOK_HORIZON_BENT_GATE (NOOK_HORIZON_BENT + 4)
 #define NOOK_HORIZON_VEC4S (NOOK_HORIZON_BENT_GATE + 1)
-// The upper bound of 1 - AO is this factor times a mean over the directions. The mean is over the greatest
-// product of elevation and nearness of each direction.
+// For each direction, take the greatest product of elevation and nearness. The upper bound of 1 - AO is this
+// factor times the mean of these products over all directions.
 #define NOOK_HORIZON_BOUND 8.0
 
 // The paper's form of a network has four units per layer. nook_network contains the bias and slopes of the

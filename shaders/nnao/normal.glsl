@@ -11,7 +11,7 @@ uniform NOOK_HOST_IMAGE nook_host_normal;
 
 // Returns the slope along one axis, which is the mean of the slopes on both sides. The weight of a slope is
 // the inverse of its square, because beyond a silhouette, depth changes more steeply than on the texel's own
-// surface. On a thin wire, both sides cancel out, so that the normal does not turn sideways.
+// surface. On a thin wire, the slopes of both sides cancel, so that the normal does not turn sideways.
 float nook_axis_slope(vec2 slope) {
   vec2 steep = slope * slope + 1.0e-12;
   return dot(slope, steep.yx) / (steep.x + steep.y);
@@ -41,8 +41,7 @@ vec3 nook_texel_normal(ivec2 texel, NookNeighbours around) {
 #endif
     vec3 n = nook_normal_matrix * (nook_stored_normal(texel, pixel) * nook_normal_scale + nook_normal_bias);
     float size = length(n);
-    // If the length is outside these limits, the host has drawn nothing here, or something that is not a
-    // normal.
+    // If the length is outside these limits, the host has not drawn a normal here.
     if (size > nook_shortest_normal && size < 1.0e6) return n / size;
   }
   return nook_rebuilt_normal(texel, around);

@@ -1,5 +1,5 @@
 // Runs the network as a compute shader, with one thread for each texel of the surface. Groups at the border
-// extend beyond the surface.
+// have threads outside the surface.
 #include "shaders/nnao/occlusion.glsl"
 
 layout(local_size_x = NOOK_OCCLUSION_GROUP_SIZE, local_size_y = NOOK_OCCLUSION_GROUP_SIZE) in;

@@ -1,4 +1,4 @@
-// Computes the raw AO of a texel of the surface with the network, and the edges around the texel. The fragment
+// Computes the raw AO of a texel of the surface, by the network, and the edges around the texel. The fragment
 // shader and the compute shader share this file.
 #include "shaders/nnao/normal.glsl"
 #include "shaders/nnao/taps.glsl"

@@ -4,8 +4,8 @@
 #include "shaders/nnao/surface_normal.glsl"
 uniform NOOK_TEXELS nook_filters;  // four texels for each cell of the grid: one for each input, with the weights of four units
 uniform vec4 nook_network[NOOK_PAPER_VEC4S];  // the other layers, in the order of network.h
-// The number of groups of NOOK_STEPS taps. It is a uniform instead of a constant, because compilers would
-// unroll the loop into more code than fits into the instruction cache.
+// The number of groups of NOOK_STEPS taps. It is a uniform. With a constant, compilers would unroll the loop
+// into more code than fits into the instruction cache.
 uniform int nook_tap_groups;
 
 vec4 nook_prelu(vec4 x, int slopes) {

@@ -1,4 +1,5 @@
-// Draws only the pixels in which the host's depth shows a surface. A query then tells whether there are any.
+// Draws only the pixels in which the host's depth shows a surface. An occlusion query tells the pass whether
+// there are such pixels.
 #include "shaders/nnao/host_depth.glsl"
 
 out vec4 nook_out;

@@ -2,7 +2,8 @@
 
 #include "shaders/nnao/layout.h"
 
-// Returns the noise for rotation and offset. Each takes 9 different values over 3 x 3 pixels.
+// Returns the noise for rotation and offset. In a block of 3 x 3 pixels, each of the two has 9 different
+// values.
 vec2 nook_tap_noise(ivec2 texel) {
   vec2 at = vec2(texel);
   vec2 cell = at - 3.0 * floor((at + 0.5) / 3.0);

@@ -1,5 +1,5 @@
-// Copies texels as the bits of their floats. Every OpenGL can read back these integers exactly, while OpenGL
-// ES can read back neither depth nor floats.
+// Copies texels as the bits of their floats. Every OpenGL can read back these integers exactly. OpenGL ES
+// cannot read back depth or floats.
 uniform sampler2D nook_image;
 uniform ivec2 nook_first;  // the texel that is copied to the lower left pixel of the target
 

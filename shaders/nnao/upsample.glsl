@@ -16,8 +16,8 @@ float nook_smaller(float a, float b) {
 #ifdef NOOK_GATHERS
 uniform vec2 nook_texel_size;  // the inverse of the size of nook_depth and nook_ao, in texels
 
-// Reads four texels with one lookup per texture: `low`, the texel on its right, and the two texels above. Only
-// the red channel of nook_ao is read, unless its texels are colours.
+// Reads four texels with one lookup per texture: `low`, the texel on its right, and the two texels above
+// these. Only the red channel of nook_ao is read, unless its texels are colours.
 void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
   vec2 middle = vec2(low + 1) * nook_texel_size;
   depths = uintBitsToFloat(textureGather(nook_depth, middle).wzxy);
@@ -44,7 +44,7 @@ void nook_fetch_quad(ivec2 low, out vec4 depths, out mat4 values) {
 #endif
 
 #ifdef NOOK_LAYERED
-// Returns the value of the texel whose depth is nearest, among the texels around the four.
+// Among the texels around the four, returns the value of the texel whose depth is closest to `depth`.
 vec4 nook_value_around(ivec2 low, float depth) {
   vec4 found = nook_open;
   float least = nook_no_surface;
@@ -63,17 +63,17 @@ vec4 nook_value_around(ivec2 low, float depth) {
 vec4 nook_upsampled(ivec2 pixel, float depth) {
   ivec2 low = pixel / 2;
 #ifdef NOOK_GATHERS
-  // Moves the quad so that both texels of each axis lie on the surface. The pixel may then lie outside the
-  // quad.
+  // Moves the quad so that all four texels are inside the surface. The pixel may then be outside the quad.
   low = max(min(low, nook_surface_size - 2), ivec2(0));
 #endif
   vec4 depths;
   mat4 values;
   nook_fetch_quad(low, depths, values);
-  // On a plane, this difference is linear in pixels.
+  // On a plane, this difference is a linear function of the position in pixels.
   vec4 rise = (depths - depth) / (nook_spread.x * depths + nook_spread.y);
   vec2 slope = vec2(nook_smaller(rise.y - rise.x, rise.w - rise.z), nook_smaller(rise.z - rise.x, rise.w - rise.y));
-  vec2 place = 0.5 * vec2(pixel - 2 * low);  // from the lower left texel, in texels
+  vec2 place = 0.5 * vec2(pixel - 2 * low);  // the pixel's position in texels, relative to the lower left
+                                             // texel
   vec4 plane = vec4(0.0, slope.x, slope.y, slope.x + slope.y) - dot(slope, place);
   vec4 off = (rise - plane) * nook_edge_scale(depth);
 #ifdef NOOK_GATHERS
@@ -84,7 +84,7 @@ vec4 nook_upsampled(ivec2 pixel, float depth) {
   weights *= vec4(notEqual(depths, vec4(nook_no_surface)));
   float sum = dot(weights, vec4(1.0));
 #ifdef NOOK_LAYERED
-  // All four weights can be 0, for example on the floor beside a foot that the layer excludes.
+  // All four weights can be 0, for example for the floor beside a foot, if the layer excludes the foot.
   if (sum == 0.0 && nook_layer_mode >= NOOK_LAYER_REPLACE) return nook_value_around(low, depth);
 #endif
   return sum > 0.0 ? values * weights / sum : nook_open;

@@ -3,8 +3,8 @@
 #ifndef NOOK_PROBE_CONSTANTS_H
 #define NOOK_PROBE_CONSTANTS_H
 
-// Factors that make real spherical harmonics orthonormal. They multiply 1; y, z, x; xy, yz, xz; 3zz - 1; and
-// xx - yy.
+// Factors that make real spherical harmonics orthonormal. In this order, they multiply 1; y, z and x; xy, yz
+// and xz; 3zz - 1; and xx - yy.
 #define NOOK_HARMONICS_0 0.28209479177387814
 #define NOOK_HARMONICS_1 0.4886025119029199
 #define NOOK_HARMONICS_2_MIXED 1.0925484305920792
@@ -16,15 +16,15 @@
 #define NOOK_LUMINANCE_GREEN 0.7152
 #define NOOK_LUMINANCE_BLUE 0.0722
 
-// Grids in 3D textures. The walls of a cell are planes that cut the cell into sides. NOOK_GRID_LEAST_SHARE is
-// the minimum distance of interpolation factors from 0 and 1. It ensures that the probes on a point's own
-// side have weights above 0, in the right proportions, even if trilinear interpolation would give all weight
-// to other probes.
+// Grids in 3D textures. The walls of a cell are planes that cut the cell into sides. Interpolation factors
+// are clamped to at least NOOK_GRID_LEAST_SHARE and at most 1 - NOOK_GRID_LEAST_SHARE. Without this,
+// trilinear interpolation could give all weight to probes on other sides of a wall. With it, the probes on
+// the point's own side always have weights above 0, in the right proportions.
 #define NOOK_GRID_PLANES 3
 #define NOOK_GRID_SIDES 8
 #define NOOK_GRID_LEAST_SHARE 0.00390625
-// A probe takes this many texels with bands 0 to 2, and with ZH3. A cell also has texels for its planes, and
-// texels with the masks of four sides each.
+// A probe takes NOOK_GRID_HARMONICS_TEXELS texels with bands 0 to 2, and NOOK_GRID_ZONAL_TEXELS texels with
+// ZH3. A cell also has texels for its planes, and texels for the masks of its sides, four masks in each.
 #define NOOK_GRID_HARMONICS_TEXELS 7
 #define NOOK_GRID_ZONAL_TEXELS 4
 #define NOOK_GRID_WALL_TEXELS 5

@@ -6,7 +6,8 @@ struct NookProbeSurface {
   vec3 normal;       // unit
   vec3 view;         // unit, from the surface to the eye
   vec3 tangent;      // unit, perpendicular to the normal; used only if the two alphas differ
-  vec2 alpha;        // GGX width (roughness squared) along the tangent and perpendicular to it; 0.001 to 1
+  vec2 alpha;        // GGX width along the tangent and along the bitangent, which is the squared roughness;
+                     // 0.001 to 1
   float reflectance; // at normal incidence, 0 to 1
 };
 
@@ -65,7 +66,7 @@ struct NookProbeVisibleNormals {
   vec4 across, along, share, sharpness;
 };
 
-// Returns the square root of the isotropic width that replaces both widths.
+// Returns the square root of the alpha with which the isotropic form replaces both widths.
 float nook_probe_mean_roughness(NookProbeSurface surface) { return sqrt(sqrt(surface.alpha.x * surface.alpha.y)); }
 
 NookProbeVisibleNormals nook_probe_visible_normals(NookProbeSurfaceView v, NookProbeSurface surface) {

@@ -11,7 +11,8 @@ uniform NOOK_TEXELS nook_probe_texels;
 // The eight probes around a point, and their trilinear weights. Points outside the grid are clamped to it.
 struct NookProbePlace {
   int lobe_count;
-  int gloss;       // texels from an amplitude to the one for gloss; 0 if the probes have none
+  int gloss;       // distance in texels from an amplitude of the light to the amplitude for gloss; 0 if the
+                   // probes have none
   int first[8];    // texel of the first amplitude
   float weight[8];
 };
@@ -38,7 +39,7 @@ NookProbePlace nook_probe_place(vec3 position_ws) {
   return place;
 }
 
-// Returns lobe i at a place. Its amplitude is read `apart` texels after the amplitude of the light.
+// Returns lobe i at a place. Reads its amplitude `apart` texels after the amplitude of the light.
 NookLobe nook_probe_read_lobe(NookProbePlace place, int i, int apart) {
   vec4 shape = nook_texel(nook_probe_texels, 3 + i);
   vec3 amplitude = vec3(0.0);

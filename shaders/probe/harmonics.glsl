@@ -11,9 +11,9 @@ struct NookHarmonics {
   vec3 coefficient[9];
 };
 
-// Bands 0 and 1, and the part of band 2 that is symmetric around the axis of band 1's luminance (T. Roughton,
-// P.-P. Sloan, A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3: Quadratic Zonal Harmonics, 2024). This form
-// takes 15 floats instead of 27.
+// Bands 0 and 1, and the part of band 2 that is rotationally symmetric around the axis of band 1's luminance
+// (T. Roughton, P.-P. Sloan, A. Silvennoinen, M. Iwanicki, P. Shirley, ZH3: Quadratic Zonal Harmonics, 2024).
+// This form takes 15 floats instead of 27.
 struct NookZonalHarmonics {
   vec3 coefficient[4];
   vec3 zonal;
@@ -55,7 +55,7 @@ vec3 nook_zh3_radiance(NookZonalHarmonics light, vec3 s) {
 }
 
 // Returns the irradiance on a surface, which is exact for these bands. On the side opposite to a sun, ringing
-// makes it negative; negative values are clamped to 0.
+// can make it negative. Negative values are clamped to 0.
 vec3 nook_sh_irradiance(NookHarmonics light, vec3 n) {
   return max(nook_sh_sum(light, n, vec3(3.14159265, 2.09439510, 0.78539816)), 0.0);
 }

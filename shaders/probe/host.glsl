@@ -18,8 +18,8 @@ vec3 nook_probe_irradiance(NookProbePlace place, vec3 normal) {
   for (int i = 0; i < place.lobe_count; ++i) sum += nook_sg_lobe_irradiance(nook_probe_lobe_at(place, i), normal);
   return max(sum, 0.0);
 }
-// Return the irradiance by cheaper approximations: only by S. Hill's fit, and with a lobe instead of the
-// clamped cosine.
+// These two functions return cheaper approximations of the irradiance. The first uses only S. Hill's fit. The
+// second uses a lobe instead of the clamped cosine.
 vec3 nook_probe_irradiance_fitted(NookProbePlace place, vec3 normal) {
   vec3 sum = vec3(0.0);
   for (int i = 0; i < place.lobe_count; ++i)
@@ -51,14 +51,14 @@ vec3 nook_probe_specular_anisotropic(NookProbePlace place, NookProbeSurface surf
   return max(sum, 0.0);
 }
 
-// Returns the radiance that a Lambertian surface reflects. Pass AO, in all channels of `occlusion`, or
-// directional occlusion.
+// Returns the radiance that a Lambertian surface reflects. Pass directional occlusion as `occlusion`, or AO
+// in all three channels.
 vec3 nook_probe_ambient(vec3 albedo, vec3 irradiance, vec3 occlusion) {
   return albedo * irradiance * occlusion * 0.31830989;
 }
 
-// Returns the specular occlusion that belongs to AO: the factor by which to multiply a glossy reflection. For
-// rough surfaces it equals AO; for sharper reflections the effect is smaller (S. Lagarde, C. de Rousiers,
+// Estimates specular occlusion from AO. Returns the factor by which to multiply a glossy reflection. For
+// rough surfaces, it equals AO. For sharper reflections, the effect is smaller (S. Lagarde, C. de Rousiers,
 // Moving Frostbite to PBR, 2014). `facing` is dot(normal, view).
 float nook_probe_specular_occlusion(float ao, float facing, float roughness) {
   return clamp(pow(max(facing, 0.0) + ao, exp2(-16.0 * roughness - 1.0)) - 1.0 + ao, 0.0, 1.0);

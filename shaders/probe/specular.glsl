@@ -9,7 +9,8 @@
 struct NookProbeReflection {
   vec4 x, y, z;     // axes of the four lobes, unit vectors
   vec4 sharpness;
-  vec4 amplitude;   // the lobes' integrals sum to the directional albedo: masking and Fresnel
+  vec4 amplitude;   // amplitudes of the lobes, whose integrals sum to the directional albedo, which includes
+                    // masking and Fresnel
 };
 
 // Returns four integrals at once; see nook_sg_integral.

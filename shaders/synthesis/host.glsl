@@ -3,8 +3,8 @@
 // function.
 uniform highp usampler2DArray nook_synthesis_texels;
 
-// Returns the material's texture coordinates at the point uv of the plane. Both are in units of the material's
-// tile. The result has jumps, so compute derivatives and the mipmap level from uv.
+// Returns the material's texture coordinates at the point uv of the plane. Both are in units of the
+// material's tile. The result is not continuous, so compute derivatives and the mipmap level from uv instead.
 vec2 nook_synthesis_material_uv(vec2 uv) {
   vec2 texels = uv * NOOK_SYNTHESIS_MATERIAL_TEXELS;
   vec2 whole = floor(texels);

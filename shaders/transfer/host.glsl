@@ -8,8 +8,8 @@ uniform NOOK_TEXELS nook_transfer_texels;
 #ifdef NOOK_TRANSFER_CLUSTERS
 // In the paper's form, the first table contains row vectors that depend on the light:
 // NOOK_TRANSFER_VERTEX_RANK for each cluster, then NOOK_TRANSFER_BANDS for reflected light. The second table
-// has NOOK_TRANSFER_VERTEX_TEXELS texels for each vertex. They contain the index of its cluster, the weights
-// for the cluster's vectors, and the weights for reflected light.
+// has NOOK_TRANSFER_VERTEX_TEXELS texels for each vertex. They contain the index of the vertex's cluster, the
+// weights of the cluster's row vectors, and the weights of the row vectors for reflected light.
 uniform NOOK_TEXELS nook_transfer_vertices;
 
 // Computes the vectors of a vertex as a weighted sum. Pass gl_VertexID if you draw the vertices in the baked

@@ -1,10 +1,12 @@
-// Computes the openness that the casters of a frame leave at a point. The table has four texels for each
-// body. The first holds the centre of the body's sphere, and one number that encodes both its radius and
-// strength / cut-off. The second holds the texel of the first part, the number of parts, and a squared
-// distance. The other two hold a capsule, which replaces the body from this distance on. A part has four
-// texels, too: its centre and a squared distance; the texel of its first caster and the number of casters;
-// and a capsule in two texels. Each capsule is stored as its two ends, with their radii for AO. Props and
-// occluders are bodies with one part and one caster.
+// Computes the openness at a point, which is the share of its hemisphere that the casters of a frame do not
+// cover. The table has four texels for each body. The first contains the centre of the sphere around the
+// body, and one float that encodes both the sphere's radius and strength / cut-off. The second contains the
+// index of the texel of the first part, the number of parts, and a squared distance. The other two contain a
+// capsule, which replaces the body at larger distances. A part has four texels, too. The first contains its
+// centre and a squared distance. The second contains the index of the texel of its first caster, and the
+// number of casters. The other two contain a capsule, which replaces the part at larger distances. Each
+// capsule is stored as its two ends, with their radii for AO. Props and occluders are bodies with one part
+// and one caster.
 #include "shaders/core/texels.glsl"
 #include "shaders/world/coverage.glsl"
 #ifdef NOOK_COLOURED
@@ -18,8 +20,8 @@
 uniform NOOK_TEXELS nook_world_casters;
 uniform int nook_world_groups;
 
-// Count what was evaluated for this point so far: capsules of all kinds, capsules that are casters, and
-// bodies whose reach was tested.
+// Counters for this point: evaluated capsules of all kinds, evaluated capsules that are casters, and bodies
+// whose reach was tested.
 int nook_world_evaluated = 0;
 int nook_world_exact = 0;
 int nook_world_tested = 0;
@@ -30,7 +32,7 @@ int nook_world_tested = 0;
 #define nook_world_part_texel(number) nook_texel(nook_world_casters, number)
 #endif
 
-// The weight that the casters of the current body have in this stage.
+// The weight of the current body's casters in this stage; see nook_world_far_share.
 float nook_world_weight = 1.0;
 bool nook_world_far_bodies = NOOK_BODIES == NOOK_FAR_BODIES;
 
@@ -53,7 +55,8 @@ float nook_world_caster_open(int texel, vec3 point, vec3 normal) {
   return nook_world_left(share, phi, normal);
 }
 
-// Returns the openness that the capsule of a part or a body leaves. Pass the ends of the capsule.
+// Returns the openness that remains after a capsule which replaces a part or a body. Pass the ends of the
+// capsule.
 float nook_world_merged_open(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   vec3 phi;
   float share = nook_world_far_coverage(end_a, end_b, point, normal, phi);
@@ -77,17 +80,18 @@ float nook_world_parts_open(int first, int last, vec3 point, vec3 normal) {
 }
 
 // Returns true if a body reduces AO by less than the cut-off. `bound` is the combined number in the body's
-// first texel. The nearest point of the body's sphere has the centre's distance minus the radius. No point of
-// the sphere is higher above the horizon than its top.
+// first texel. The gap to the body's sphere is the distance of its centre minus its radius. `top` is the
+// height of the sphere's highest point above the horizon.
 bool nook_world_out_of_reach(float bound, float distance, float height) {
   float radius = bound < NOOK_ENDLESS_BOUND ? fract(bound) * NOOK_LARGEST_RADIUS : NOOK_ENDLESS_BOUND;
   float gap = distance - radius, top = height + radius;
-  // The casters cover at most strength / gap^2, and the cosine of their directions is at most top / gap.
+  // The casters cover at most strength / gap^2, weighted by the cosine of their directions, which is at most
+  // top / gap.
   return top < 0.0 || (gap > 0.0 && bound * min(top, gap) < NOOK_STRENGTH_STEPS * gap * gap * gap);
 }
 
-// Returns the share with which a body counts as a far body. `ratio` is the body's squared distance, divided
-// by the squared distance from which on one capsule replaces the body.
+// Near and far bodies are blended. Returns the weight of a body as a far body, from 0 to 1. `ratio` is the
+// body's squared distance, divided by the squared distance beyond which one capsule replaces the body.
 float nook_world_far_share(float ratio) {
   return clamp((ratio - NOOK_FAR_FROM) / (1.0 - NOOK_FAR_FROM), 0.0, 1.0);
 }

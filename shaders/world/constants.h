@@ -1,5 +1,5 @@
-// Constants of formulas in sdk/src/world (coverage.h, cone.h) and in these shaders. The headers describe
-// them. Both C++ and GLSL include this file.
+// Constants of formulas in sdk/src/world (coverage.h, cone.h) and in these shaders. The headers describe the
+// formulas. Both C++ and GLSL include this file.
 #ifndef NOOK_WORLD_CONSTANTS_H
 #define NOOK_WORLD_CONSTANTS_H
 
@@ -12,12 +12,12 @@
 // If the squared sine of the angle between the ends of a capsule is below this, the ends are treated as one
 // point.
 #define NOOK_SMALLEST_SPREAD 1e-6
-// The largest sine of the angular radius of a capsule's end. It is just below 1, which is the sine for a
-// point on the surface.
+// The largest sine of the angular radius of a capsule's end. It is just below 1. For a point on the surface
+// of the end, the sine would be 1.
 #define NOOK_LARGEST_SINE 0.9999
 
-// The coefficients of the share below the horizon, w1 (1 - t^2) + w2 (1 - t^2)^2, with w = b (c0 + b (c1 + b
-// c2)) for each of w1 and w2.
+// The coefficients of the two polynomials w1 and w2 in b, which coverage.h uses for regions that the horizon
+// cuts. Each is w = b (c0 + b (c1 + b c2)).
 #define NOOK_HORIZON_10 1.09177
 #define NOOK_HORIZON_11 -1.52723
 #define NOOK_HORIZON_12 0.68546
@@ -37,17 +37,17 @@
 #define NOOK_DISC_BAND_41 2.5
 #define NOOK_DISC_BAND_42 1.4583333
 
-// The table of casters has this many texels for a body, for a part of a body and for a caster. In the lists
-// of tiles, each tile has one texel with the position and the number of its entries. An entry is the index of
-// a body; a texel holds four entries.
+// In the table of casters, a body, a part of a body and a caster each take a fixed number of texels. In the
+// lists of tiles, each tile has one texel, with the position and the number of its entries. An entry is the
+// index of a body. Four entries are stored in a texel.
 #define NOOK_BODY_TEXELS 4
 #define NOOK_PART_TEXELS 4
 #define NOOK_CASTER_TEXELS 2
 
-// Encodes strength over cut-off and radius of a body in one number. The integer part is the strength over the
+// One float encodes two values of a body: strength / cut-off, and the radius. The integer part is strength /
 // cut-off in steps of 1 / NOOK_STRENGTH_STEPS square metres. The fraction is the radius divided by
-// NOOK_LARGEST_RADIUS, in metres. A body with a larger strength or radius gets NOOK_ENDLESS_BOUND, which
-// means that it reaches everything.
+// NOOK_LARGEST_RADIUS, which is in metres. If a value of the body is too large for this, the body gets
+// NOOK_ENDLESS_BOUND, which means that it reaches everything.
 #define NOOK_STRENGTH_STEPS 8.0
 #define NOOK_LARGEST_RADIUS 4.0
 #define NOOK_LARGEST_STRENGTH 4096.0
@@ -58,14 +58,15 @@
 #define NOOK_WORLD_GROUP_SIZE 8
 
 // Values of NOOK_BODIES, which selects the bodies that a stage evaluates: all bodies, near bodies or far
-// bodies. Far bodies are farther away than the distance from which on one capsule replaces the body. Between
-// the share NOOK_FAR_FROM of this squared distance and the distance itself, near and far results are blended.
+// bodies. Beyond its merging distance, a body is a far body, and one capsule replaces it. If the squared
+// distance of a body is between NOOK_FAR_FROM and 1 times its squared merging distance, near and far results
+// are blended.
 #define NOOK_ALL_BODIES 0
 #define NOOK_NEAR_BODIES 1
 #define NOOK_FAR_BODIES 2
 #define NOOK_FAR_FROM 0.6
-// The AO of far bodies has one texel for this many pixels along each side, in a pass for the largest images.
-// A pass for smaller images defines a smaller step.
+// The size of a texel of the AO of far bodies, in pixels along each side, in a pass for the largest images. A
+// pass for smaller images defines a smaller step.
 #ifndef NOOK_FAR_STEP
 #define NOOK_FAR_STEP 8
 #endif
@@ -81,13 +82,13 @@
 // at the middle.
 #define NOOK_SEGMENT_1 -0.63662
 #define NOOK_SEGMENT_3 0.13662
-// Up to this radius, in units of a part's radius, a capsule is treated as a rectangle. From this radius plus
-// 1 on, only its round edge is used. In between, both are blended.
+// The radius of the capsule in units of the part's radius. Up to this radius, a capsule is treated as a
+// rectangle. From this radius plus 1 on, it is treated as a half-plane. In between, both results are blended.
 #define NOOK_NARROW_RADIUS 0.75
 
 // Number of equal parts of a cone of light.
 #define NOOK_CONE_PARTS 16
-// Sizes of uniform arrays of light.glsl, where they are described.
+// Sizes of the uniform arrays of light.glsl. That file describes the arrays.
 #define NOOK_CONE_VEC4S 18
 #define NOOK_LIGHT_TERMS 25
 #define NOOK_LIGHT_VEC4S 26

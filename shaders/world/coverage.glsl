@@ -62,13 +62,14 @@ float nook_world_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out v
   return min(nook_above_horizon(hull.x * nu + hull.y * nv, size2, min(nu / su, nv / sv)), 1.0);
 }
 
-// The same for a distant capsule, which is treated as a narrow strip. For 99 % of capsules whose ends have
-// sines below 0.25, the difference from the function above is at most 0.003. Let g be the vector in the plane
-// of u and v with dot(g, u) = s_u and dot(g, v) = s_v. Then the strip's sine along the arc of w from u to v
-// is dot(g, w), and its integral 2 / pi dot(g, w) w over the arc is
+// Returns the same share for a distant capsule, which is treated as a narrow strip. For 99 % of capsules
+// whose ends have sines below 0.25, the difference from the function above is at most 0.003. Let g be the
+// vector in the plane of u and v with dot(g, u) = s_u and dot(g, v) = s_v. Then the strip's sine along the
+// arc of w from u to v is dot(g, w), and its integral 2 / pi dot(g, w) w over the arc is
 //   (lambda + s) (s_u + s_v) / (2 (1 + c)) (u + v) + (lambda - s) (s_u - s_v) / (2 (1 - c)) (u - v), over pi,
-// where lambda is the angle between both and s its sine. Each end adds half of the vector of its disc. For the share
-// above the horizon, the region is treated as a very distant disc with the same vector.
+// where lambda is the angle between both and s its sine. In addition, each end contributes half of the vector
+// of its disc. For the share above the horizon, the region is treated as a very distant disc with the same
+// vector.
 float nook_world_far_coverage(vec4 end_a, vec4 end_b, vec3 point, vec3 normal, out vec3 phi) {
   vec3 a = end_a.xyz - point, b = end_b.xyz - point;
   float ia = inversesqrt(dot(a, a)), ib = inversesqrt(dot(b, b));

@@ -1,21 +1,21 @@
-// Runs a stage at half resolution as a compute dispatch. A group of threads reads the bodies of its tile
-// once, and skips bodies that do not reach any point of the box around the group's surfaces. It keeps the
-// remaining bodies in shared memory, where all of its threads read them.
+// Runs an AO stage at half resolution as a compute shader. A group of threads reads the bodies of its tile
+// once. It skips bodies that do not reach any point of the box around the group's surfaces. The remaining
+// bodies are kept in shared memory, from which all threads of the group read them.
 #define NOOK_GROUPS
 #define nook_world_part_texel(number) nook_group_texel[number]
 #include "shaders/world/constants.h"
 
 layout(local_size_x = NOOK_WORLD_GROUP_SIZE, local_size_y = NOOK_WORLD_GROUP_SIZE) in;
 
-// The number of bodies that a group keeps at a time. Each body has one bit in a mask, so that bodies are
-// always processed in the same order.
+// The number of bodies that a group keeps at a time. Each kept body is one bit in a mask. The mask ensures
+// that bodies are always processed in the same order.
 #define NOOK_GROUP_BODIES 32
 shared uint nook_group_kept;
 shared vec4 nook_group_bound[NOOK_GROUP_BODIES], nook_group_parts[NOOK_GROUP_BODIES];
 // The parts of one near body, or the capsules that replace far bodies.
 shared vec4 nook_group_texel[NOOK_MAX_PARTS * NOOK_PART_TEXELS];
-// The box around the group's surfaces. Its floats are stored as integers that have the same order. For far
-// bodies, there are also the box of the normals, and the minimum of dot(position, normal).
+// The box around the group's surfaces. Its floats are stored as integers that have the same order. The stage
+// for far bodies also stores the box of the normals, and the minimum of dot(position, normal).
 shared int nook_group_low[3], nook_group_high[3];
 #include "shaders/world/darken.glsl"
 #if NOOK_BODIES == NOOK_FAR_BODIES
@@ -107,8 +107,8 @@ void nook_read_bodies(int first, int begin, int count, int thread) {
   barrier();
 }
 
-// Returns the openness that one kept body leaves at the thread's surface. All threads of the group must call
-// it.
+// Returns the openness of the thread's surface if only this kept body occluded it. All threads of the group
+// must call it.
 float nook_kept_open(int slot, NookSurface surface, int thread) {
   vec4 bound = nook_group_bound[slot], parts = nook_group_parts[slot];
 #if NOOK_BODIES != NOOK_FAR_BODIES

@@ -1,7 +1,7 @@
-// Computes the casters' AO for the surfaces in the host's depth image. darken.frag and darken.comp include
-// this file. AO is computed for every pixel, or for every second pixel of every second row, which
-// resolve.frag then upsamples. In the half-resolution form, far bodies are computed first, for every eighth
-// pixel, and the near bodies' AO is multiplied by their AO.
+// Computes the AO that casters cause on the surfaces in the host's depth image. darken.frag and darken.comp
+// include this file. AO is computed for every pixel, or at half resolution: for every second pixel of every
+// second row. resolve.frag then upsamples it. At half resolution, the AO of far bodies is computed first, for
+// every NOOK_FAR_STEP-th pixel along each axis. The AO of near bodies is then multiplied by it.
 #include "shaders/nnao/host_depth.glsl"
 #if NOOK_HALF
 #include "shaders/nnao/depth.glsl"
@@ -14,7 +14,8 @@ uniform sampler2D nook_host_normal;
 uniform int nook_world_first_tile;
 uniform int nook_world_tile_columns;  // 0: no body reaches the view
 uniform int nook_world_tile_size;     // pixels along a side
-uniform int nook_world_counts;        // not 0: a nook_world_view, which shows counts divided by 255
+uniform int nook_world_counts;        // not 0: a debug view (nook_world_view), which shows counters divided
+                                      // by 255
 
 #ifdef NOOK_LAYERED
 bool nook_world_replaced(ivec2 pixel, float above) {
@@ -29,9 +30,9 @@ bool nook_world_replaced(ivec2 pixel, float above) {
 #define NOOK_NORMAL_STEP 1
 #endif
 
-// Returns the depth of a neighbour of a pixel of this stage. Returns nook_no_surface if there is no surface,
-// or if the layer has its own surface there. Without the second rule, the floor next to a foot would get the
-// normal of the foot.
+// Returns the depth of a pixel beside a pixel of this stage. Returns nook_no_surface if there is no surface,
+// or if the host's layer covers the pixel. Otherwise the floor next to a foot that the layer covers would get
+// the normal of the foot.
 float nook_world_depth_beside(ivec2 pixel) {
 #if NOOK_HALF
   return nook_depth_near(pixel / NOOK_NORMAL_STEP);
@@ -45,14 +46,14 @@ float nook_world_depth_beside(ivec2 pixel) {
 }
 
 // Returns the surface tangent along an axis. It is the mean of the steps to both neighbours, weighted by the
-// inverse square of their changes of depth. Across a silhouette, depth changes more than on the pixel's own
-// surface. `axis` is one pixel long.
+// inverse square of their changes of depth. The reason for these weights is that depth changes more across a
+// silhouette than on the pixel's own surface. `axis` is one pixel long.
 vec3 nook_world_tangent(ivec2 pixel, ivec2 axis, vec3 position) {
   ivec2 step = NOOK_NORMAL_STEP * axis;
   vec2 depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));
 #ifdef NOOK_LAYERED
-  // Between two fingers of the layer, both neighbours may have no surface. Then the surface continues beyond
-  // the fingers.
+  // If the pixel is between two fingers that the layer covers, both neighbours may have no surface. So looks
+  // for the surface beyond the fingers.
   for (int i = 0; i < 7 && min(depths.x, depths.y) == nook_no_surface; ++i) {
     step += NOOK_NORMAL_STEP * axis;
     depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));
@@ -85,8 +86,7 @@ uniform int nook_world_first_shade;
 uniform int nook_world_light_columns;  // 0: there is no cone, or it is open
 
 // A texel of a list holds four body indices. The loops rotate the vector, so that the next index is always in
-// x. With an index that is only known at run time, compilers would put the vector into memory or use four
-// comparisons.
+// x. If the vector were indexed at run time, compilers would put it into memory or use four comparisons.
 float nook_world_tile_light(ivec2 pixel, vec3 point) {
   if (nook_world_light_columns == 0) return 1.0;
   for (int i = 0; i < NOOK_CONE_PARTS; ++i) nook_world_parts[i] = 1.0;
@@ -135,8 +135,8 @@ float nook_world_depth(ivec2 pixel) {
 uniform sampler2D nook_far_open;
 uniform int nook_world_far;  // 0: no far body reaches the view
 
-// A texel of the far bodies' AO: its point in view space, whether there is a surface, and the openness that
-// the far bodies leave.
+// A texel of the far bodies' AO: its point in view space, whether it has a surface, and the openness after
+// occlusion by far bodies.
 struct NookFarTexel {
   vec3 position;
   bool there;
@@ -157,14 +157,14 @@ NookFarTexel nook_far_texel(ivec2 texel);
 #define nook_far_texel nook_fetch_far
 #endif
 
-// Returns the share of light that far bodies do not block, interpolated from the four texels around this
-// pixel. A texel has a large weight if its point is near the plane of the pixel's surface. Alpha is 0 if no point is near
-// the plane.
+// Returns the openness after occlusion by far bodies, interpolated from the four texels around this pixel. A
+// texel has a large weight if its point is near the plane of the pixel's surface. Alpha is 0 if no point is
+// near the plane.
 vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
   ivec2 low = pixel / NOOK_FAR_STEP, last = (nook_screen_size - 1) / NOOK_FAR_STEP;
   vec2 place = vec2(pixel - NOOK_FAR_STEP * low) / float(NOOK_FAR_STEP);
-  // If the distance of a point from the plane is a hundredth of its distance from the camera, its weight is
-  // halved.
+  // The weight of a texel is halved if the distance of its point from the plane is a hundredth of the
+  // distance from the camera.
   float inverse_off = 100.0 * inversesqrt(dot(point, point) + 1.0e-12);
   vec3 sum = vec3(0.0);
   float weights = 0.0;
@@ -177,7 +177,8 @@ vec4 nook_world_far_open(ivec2 pixel, vec3 point, vec3 normal) {
     sum += weight * far.open;
     weights += weight;
   }
-  // If all four texels are off the plane, the sum of their weights is below this.
+  // If the points of all four texels are far from the plane, the sum of their weights is below this
+  // threshold.
   return weights > 5.0e-4 ? vec4(sum / weights, 1.0) : vec4(0.0);
 }
 
@@ -209,7 +210,7 @@ NookSurface nook_world_surface(ivec2 pixel) {
   return NookSurface(true, position, nook_world_normal(pixel, position));
 }
 
-// Returns the count of this point that nook_world_view shows, divided by 255.
+// Returns the counter that the debug view (nook_world_view) shows for this point, divided by 255.
 float nook_world_count() {
   bool tests = nook_world_counts == NOOK_VIEW_TESTS || nook_world_counts == NOOK_VIEW_FAR_TESTS;
   int number = nook_world_counts == NOOK_VIEW_EXACT_CASTERS ? nook_world_exact
@@ -218,7 +219,7 @@ float nook_world_count() {
   return float(number) / 255.0;
 }
 
-// `open` is the openness that the bodies of this stage leave.
+// `open` is the openness after occlusion by the bodies of this stage.
 vec4 nook_world_light(ivec2 pixel, NookSurface surface, float open) {
   vec4 light = vec4(vec3(open), 1.0);
   float count = surface.there ? nook_world_count() : 0.0;

@@ -3,11 +3,11 @@
 #include "shaders/core/texels.glsl"
 #include "shaders/world/constants.h"
 
-// The light's terms in view space (sdk/src/world/light_terms.h), then LightTerms::darkest.
+// The light's terms in view space (sdk/src/world/light_terms.h), followed by LightTerms::darkest.
 uniform vec4 nook_world_light_terms[NOOK_LIGHT_VEC4S];
 
-// The sums of the terms of a point's casters, in the order of the light's terms. Each caster is weighted by
-// its share.
+// Sums over the casters of a point: the terms of their densities, in the order of the light's terms. Each
+// caster is weighted by its share.
 struct NookTaken {
   float scalar;
   vec4 terms[6];
@@ -61,8 +61,8 @@ vec3 nook_world_open_light(vec3 normal, float ao) {
 }
 
 // The array begins with the axes of the cone's parts, each with its slope. Then comes the axis of the cone,
-// with its reach in metres. The last vector contains the cosine and sine of a half angle: a cone with this
-// half angle contains all parts.
+// with its reach in metres. The last vector contains the cosine and sine of the half angle of a wider cone,
+// which contains all parts completely.
 uniform vec4 nook_world_cone[NOOK_CONE_VEC4S];
 float nook_world_parts[NOOK_CONE_PARTS];
 
@@ -83,8 +83,9 @@ float nook_share_between(float from, float to) {
   return x * (x * x * NOOK_SEGMENT_3 + NOOK_SEGMENT_1) - y * (y * y * NOOK_SEGMENT_3 + NOOK_SEGMENT_1);
 }
 
-// `a` is the capsule's first end relative to the point, and its radius. `e` is the second end and radius,
-// minus the first. `part` is the unit axis of a part, and its slope.
+// Returns the share of a part that a capsule hides. a.xyz is the first end of the capsule, relative to the
+// point, and a.w its radius. `e` is the difference of the second and the first end, with the radius in w.
+// part.xyz is the unit axis of the part, and part.w its slope.
 float nook_part_coverage(vec4 a, vec4 e, vec4 part) {
   float depth_a = dot(a.xyz, part.xyz), range = dot(e.xyz, part.xyz), depth_b = depth_a + range;
   float deepest = max(depth_a, depth_b), smallest = 0.02 * deepest;
@@ -107,8 +108,8 @@ float nook_part_coverage(vec4 a, vec4 e, vec4 part) {
 }
 
 // Multiplies the openness of the cone's parts by the shadow of one body. The body has two texels in the
-// table: the centre and radius of the sphere around the body; the texel of its first caster and the number of
-// casters.
+// table. The first contains the centre and radius of the sphere around the body. The second contains the
+// index of the texel of its first caster, and the number of casters.
 void nook_world_body_shade(NOOK_TEXELS table, int texel, vec3 point) {
   vec4 bound = nook_texel(table, texel);
   if (!nook_world_in_cone(bound.xyz - point, bound.w)) return;

@@ -1,5 +1,5 @@
-// Converts the openness of a pixel to the result: applies the strength, composes it with another AO, and
-// applies the layer.
+// Converts the openness of a pixel to the result: applies intensity and power, combines it with another AO,
+// and applies the host's layer.
 #include "shaders/nnao/output.glsl"
 
 uniform sampler2D nook_other_ao;
@@ -19,8 +19,8 @@ float nook_world_finished(float open, ivec2 pixel) {
   return ao;
 }
 
-// open.rgb is the openness of each channel. open.a is the openness of the cone of light. Of all layer modes,
-// only the modes that replace AO change open.a.
+// open.rgb is the openness in each colour channel. open.a is the open share of the cone of light. The host's
+// layer changes open.a only in the modes that replace AO.
 vec4 nook_world_result(vec4 open, ivec2 pixel) {
 #ifdef NOOK_COLOURED
   vec4 result = vec4(nook_world_finished(open.r, pixel), nook_world_finished(open.g, pixel),

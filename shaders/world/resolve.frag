@@ -1,5 +1,5 @@
 // Upsamples AO, which was computed for every second pixel of every second row, to all pixels, and computes
-// the result. With NOOK_COUNTS, the texels are counts, which are not upsampled.
+// the result. With NOOK_COUNTS, the texels are counters, which are not interpolated.
 #include "shaders/nnao/host_depth.glsl"
 #ifdef NOOK_COLOURED
 #define NOOK_OPEN_TEXEL vec4(1.0)

@@ -1,4 +1,5 @@
-// Shared functions for decoding tensors and networks: cells of view maps, and places of the tile.
+// Functions that tensors and networks both use for decoding: cells of view maps, and the places in the tile
+// that a pixel reads.
 #include "shaders/material/view_map.glsl"
 
 #include "shaders/material/footprint.glsl"

@@ -1,11 +1,11 @@
 // Evaluates the network of a neural material. neural.h in sdk/src/material has the equations, and
-// neural_tables.cpp has the same functions. Matrices are stored in blocks of 4 x 4. The blocks from four
-// inputs to all units are adjacent. The last inputs of the two layers that read features are the view and 1.
-// The result for a pixel, `modes`, is the sums of the first layer without the light, followed by the view.
+// neural_tables.cpp has the same functions. Matrices are stored in blocks of 4 x 4. The blocks of the same
+// four inputs are adjacent. Two layers read features. Their last inputs are the view and 1. The result for a
+// pixel is `modes`. It contains the sums of the first layer without the light, followed by the view.
 
 vec4 nook_neural_rectified(vec4 sum) { return max(sum, nook_neural_leak * sum); }
 
-// If a direction is lower than the lowest sampled direction, raises it to the same height.
+// Raises a direction that is lower than the lowest sampled direction to the height of that direction.
 vec3 nook_neural_raised(vec3 d, float lowest) {
   return d.z >= lowest ? d : vec3(d.xy * (sqrt(1.0 - lowest * lowest) / max(length(d.xy), 1e-6)), lowest);
 }
@@ -55,8 +55,8 @@ void nook_material_decode_at(NookMaterialFetches at, vec3 view, out vec4 modes[N
   modes[NOOK_NEURAL_UNIT_VEC4S] = vec4(view, 0.0);
 }
 
-// Computes `modes` at the point uv for the view. dx and dy are the derivatives of uv along the pixel's sides,
-// over which the function filters the features.
+// Computes `modes` at the point uv for the view. dx and dy are the derivatives of uv along the pixel's sides.
+// The function filters the features over the pixel.
 void nook_material_decode(vec2 uv, vec2 dx, vec2 dy, vec3 view, out vec4 modes[NOOK_LIGHT_VEC4_COUNT]) {
   nook_material_decode_at(nook_material_one_fetch(uv, dx, dy, NOOK_BTF_TEXELS), view, modes);
 }

@@ -1,6 +1,6 @@
 // Finds the terms of a tensor for a view. sdk/src/gl/material/material_glsl.cpp writes this text once for the
-// BTF and once for the VOTF. It replaces "tensor" by "btf" or "votf", and "TENSOR" by "BTF" or "VOTF". Shared
-// functions are not possible, because some materials have no membership texture.
+// BTF and once for the VOTF. It replaces "tensor" by "btf" or "votf", and "TENSOR" by "BTF" or "VOTF". Both
+// cannot share functions, because some tensors have no membership texture.
 
 // Returns four modes of a cluster, averaged over several places.
 vec4 nook_tensor_mean(int cluster, int mode, NookMaterialFetches at) {

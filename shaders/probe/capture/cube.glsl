@@ -12,8 +12,8 @@ struct NookCubeTexel {
 };
 
 // Returns the point of the cube for a position on a face. Positions are from -1 to 1, and faces are +x, -x,
-// +y, -y, +z, -z. The orientation of the faces does not matter, because all texels of a face are visited, and
-// the lookup is by direction.
+// +y, -y, +z, -z. OpenGL's orientation of the faces does not matter, because all texels of a face are
+// visited, and the texture is read by direction.
 vec3 nook_cube_place(int face, vec2 at) {
   float side = (face & 1) == 0 ? 1.0 : -1.0;
   if (face < 2) return vec3(side, at);
@@ -21,9 +21,9 @@ vec3 nook_cube_place(int face, vec2 at) {
 }
 
 // Returns half of the solid angle of a triangle, after A. van Oosterom and J. Strackee, The solid angle of a
-// plane triangle (1983). The tangent of this half is det / sum, which has no cancellation. If a texel's side
-// is at most a quarter of a face, the tangent is below 0.1, and three terms of the arctangent's series are
-// exact in floats.
+// plane triangle (1983). The tangent of this half is det / sum, whose computation has no cancellation. If a
+// texel's side is at most a quarter of a face, the tangent is below 0.1, and three terms of the arctangent's
+// series are exact in floats.
 float nook_half_angle(float det, float sum) {
   float t = det / sum, t2 = t * t;
   return t * (1.0 - t2 * (1.0 / 3.0 - t2 * 0.2));
@@ -41,8 +41,8 @@ float nook_texel_angle(vec2 at, float half_side) {
 }
 
 // Reads a texel. As in fits, radiance above 1e18 is treated as infinite. The check compares the bits of the
-// floats, which have the same order as the magnitudes, with NaN above all numbers. A comparison of floats is
-// not safe: the compiler may invert it, and NaN would then pass.
+// floats as integers. They have the same order as the magnitudes, and NaN is above all numbers. A comparison
+// of floats is not safe: the compiler may invert it, and NaN would then pass.
 NookCubeTexel nook_cube_texel(int face, int column, int row) {
   float half_side = 1.0 / float(nook_face_size);
   vec2 at = vec2(2 * column + 1, 2 * row + 1) * half_side - 1.0;

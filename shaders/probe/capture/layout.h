@@ -12,7 +12,7 @@
 #define NOOK_CAPTURE_SUN_DIRECTION 10
 #define NOOK_CAPTURE_SUN_ANGLE 11
 
-// The kinds of sums over texels. Luminance is a single sum.
+// The kinds of sums over texels. NOOK_CAPTURE_LUMINANCE is a single sum.
 #define NOOK_CAPTURE_LOBES 0
 #define NOOK_CAPTURE_BANDS 1
 #define NOOK_CAPTURE_LUMINANCE 2

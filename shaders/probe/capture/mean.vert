@@ -1,4 +1,4 @@
-// Adds up the sums over the rows of a cube map, and updates the average over maps with the result. One point
+// Adds up the sums of all rows of a cube map. Then updates the average over maps with the result. One point
 // is drawn for each sum.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/capture/layout.h"

@@ -5,7 +5,8 @@
 #include "shaders/probe/capture/layout.h"
 
 uniform NOOK_TEXELS nook_table;
-uniform int nook_limited;        // not 0: limit luminance to the threshold for suns, which is in the first texel
+uniform int nook_limited;        // not 0: luminance is limited to the threshold for suns, which is in the
+                                 // first texel
 #if NOOK_CAPTURE_KIND == NOOK_CAPTURE_LOBES
 uniform int nook_first_lobe;     // the texel of the group's first lobe: axis and sharpness
 #endif

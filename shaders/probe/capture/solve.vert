@@ -1,5 +1,5 @@
-// Computes the coefficients of a probe from its sums. The output is texels of the texture that the host's
-// shaders read. One point is drawn for each texel.
+// Computes the coefficients of a probe from its sums. The output has the layout of the texture that the
+// host's shaders read. One point is drawn for each texel.
 #include "shaders/core/texels.glsl"
 #include "shaders/probe/capture/layout.h"
 #include "shaders/probe/constants.h"
@@ -29,7 +29,7 @@ vec3 nook_harmonic(int i) {
 }
 
 #if NOOK_CAPTURE_FORM == NOOK_CAPTURE_ZONAL
-// Returns the part of band 2 that is symmetric around the direction of band 1's luminance, as in
+// Returns the part of band 2 that is rotationally symmetric around the axis of band 1's luminance, as in
 // harmonics.cpp.
 vec3 nook_zonal() {
   vec3 weight = vec3(NOOK_LUMINANCE_RED, NOOK_LUMINANCE_GREEN, NOOK_LUMINANCE_BLUE);
@@ -43,7 +43,8 @@ vec3 nook_zonal() {
 }
 #endif
 
-// Colours are stored one after another as a sequence of values, four per texel.
+// Returns one value of the result. The channels of all colours form one sequence of values. Each texel
+// contains four of them.
 float nook_number_at(int at) {
   int colour = at / 3, channel = at - 3 * colour;
 #if NOOK_CAPTURE_FORM == NOOK_CAPTURE_ZONAL

@@ -38,8 +38,8 @@ NookGridLight nook_grid_unpacked(NookGridTexels t) {
   return light;
 }
 
-// Interpolates trilinearly with the texture unit. `at` is the position in units of the spacing, from the first
-// probe.
+// Interpolates trilinearly with the texture unit. `at` is the position relative to the first probe, in units
+// of the spacing.
 NookGridTexels nook_grid_filtered(vec3 at) {
   vec3 uvw = (clamp(at, vec3(0.0), nook_grid_frame[2].xyz - 1.0) + 0.5) * nook_grid_frame[3].xyz;
   float layer = nook_grid_frame[2].z * nook_grid_frame[3].z;
@@ -50,8 +50,8 @@ NookGridTexels nook_grid_filtered(vec3 at) {
 }
 
 #ifdef NOOK_GRID_WALLS
-// Interpolates only those probes of a cell that the mask selects. `in_cell` is the position in units of the
-// spacing, from the cell's first probe.
+// Interpolates only the probes of a cell that the mask selects. `in_cell` is the position relative to the
+// cell's first probe, in units of the spacing.
 NookGridTexels nook_grid_masked(ivec3 cell, vec3 in_cell, int mask) {
   ivec3 last = ivec3(nook_grid_frame[2].xyz) - 1;
   vec3 high = clamp(in_cell, vec3(NOOK_GRID_LEAST_SHARE), vec3(1.0 - NOOK_GRID_LEAST_SHARE)), low = 1.0 - high;
