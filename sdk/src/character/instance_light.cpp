@@ -64,8 +64,8 @@ float norm_sum_of(float shadow, float saturation, float gamma) {
   return gamma == 1 ? norm : std::pow(norm, gamma);
 }
 
-// Computes the coloured shadow from the weighted sums: shadow * (sum of y^gamma rho) / (sum of y^gamma). Then
-// computes it for the key points that are not evaluated.
+// Computes the coloured shadow of all key points, shadow * (sum of y^gamma rho) / (sum of y^gamma). The sums
+// are the weighted sums of the evaluated key points.
 void colour_shadow(const Instance& instance, InstanceLight& light) {
   const PointLanes& points = instance.result.arrays.points;
   const float gamma = instance.model->model.kernel.gamma;

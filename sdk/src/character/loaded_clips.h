@@ -26,9 +26,9 @@ FrameMix frame_mix(const ClipRange& clip, double time_s, bool is_looping) noexce
 // Where the body is in a frame, in the clip's space.
 struct FrameBound {
   PoseBound bound;
-  // In the middle between this frame and the next, the parts of a bone are at most this far from the mean of
-  // their positions in the two frames. The bone also turns between the frames, so its parts do not move on
-  // straight lines.
+  // For each bone, take the centre of its bounding sphere (LoadedModel::BoneBound). In the middle between
+  // this frame and the next, this centre is at most `swing` away from the mean of its positions in the two
+  // frames. It does not move on a straight line, because the bone also turns between the frames.
   float swing = 0;  // metres
 };
 
