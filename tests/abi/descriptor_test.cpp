@@ -96,7 +96,7 @@ TEST_CASE("a descriptor of another type, and an unknown type, are refused by nam
   desc.type = scene.type;
   nook_context context = nullptr;
   CHECK(nook_context_create(&desc, &context) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(last_mentions("desc.type is another descriptor's"));
+  CHECK(last_mentions("desc.type belongs to another descriptor"));
   CHECK(last_mentions("call nook_context_desc_init"));
   CHECK(context == nullptr);
   CHECK(nook_desc_init(0, &desc, sizeof desc, NOOK_VERSION) == NOOK_ERROR_INVALID_ARGUMENT);

@@ -36,7 +36,7 @@ TEST_CASE("context: bad parameters") {
   CHECK(nook_context_create(&desc, nullptr) == invalid);
   desc.allocator.release = nullptr;
   CHECK(nook_context_create(&desc, &context) == invalid);
-  CHECK(last_is("nook_context_create: ", "only one function"));
+  CHECK(last_is("nook_context_create: ", "only one of its two functions"));
 }
 
 TEST_CASE("models: bad parameters and bad files") {

@@ -242,9 +242,9 @@ TEST_CASE("fits: bad descriptors name their field") {
   refused([](Desc& d) { d.form = 2; }, "desc.form is unknown (got 2, need 0 to 1)");
   refused([](Desc& d) { d.match_sh = 2; }, "desc.match_sh is unknown (got 2, need 0 to 1)");
   refused([](Desc& d) { d.form = NOOK_FORM_PAPER, d.match_sh = 0; },
-          "NOOK_FORM_PAPER sets desc.method and desc.match_sh itself");
+          "NOOK_FORM_PAPER, which itself chooses desc.method and desc.match_sh");
   refused([](Desc& d) { d.form = NOOK_FORM_PAPER, d.method = NOOK_PROBE_FIT_RUNNING_AVERAGE; },
-          "NOOK_FORM_PAPER sets desc.method and desc.match_sh itself");
+          "NOOK_FORM_PAPER, which itself chooses desc.method and desc.match_sh");
   refused([](Desc& d) { d.basis = -1; }, "desc.basis");
   refused([](Desc& d) { d.domain = 2; }, "desc.domain");
   refused([](Desc& d) { d.ambient = 2; }, "desc.ambient");
@@ -294,9 +294,9 @@ TEST_CASE("fits: bad extensions name their field") {
           "replaces desc.form and desc.method");
   refused([](Desc& d, Study& s) { d.method = 1, s.method = NOOK_PROBE_FIT_STUDY_MOMENTS; },
           "replaces desc.form and desc.method");
-  refused([](Desc&, Study& s) { s.next = &s; }, "two descriptors of one type");
+  refused([](Desc&, Study& s) { s.next = &s; }, "two descriptors of the same type");
   nook_probe_desc other = probe_desc();
-  refused([&](Desc& d, Study&) { d.next = &other; }, "does not take (got type 10)");
+  refused([&](Desc& d, Study&) { d.next = &other; }, "cannot extend this one (got type 10)");
 }
 
 // The paper's form is a running average with the published step and without match_sh, and no other.
@@ -426,7 +426,7 @@ TEST_CASE("probes: bad parameters and bad files") {
   desc.fits = different;
   desc.fit_count = 2;
   CHECK(nook_probe_create(stage.context, &desc, &probe) == invalid);
-  CHECK(last_is("nook_probe_create: ", "desc.fits[1] has different functions"));
+  CHECK(last_is("nook_probe_create: ", "desc.fits[1] and desc.fits[0] have different functions"));
   nook_lobe lobes[64];
   CHECK(nook_probe_read_lobes(other, nullptr, lobes, 9) == invalid);
   nook_probe_destroy(&other);

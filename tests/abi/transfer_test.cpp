@@ -159,7 +159,7 @@ TEST_CASE("transfer: bad parameters and bad files") {
   desc.lobe_count = 19;
   desc.first_vertex = 3;
   CHECK(read(3, 0) == invalid);
-  CHECK(last_has("the transfer has 5"));
+  CHECK(last_has("the transfer has only 5"));
   desc.first_vertex = 0;
   CHECK(read(5, 1) == invalid);
   CHECK(last_has("stride_floats"));

@@ -125,7 +125,8 @@ TEST_CASE("wrong poses are refused by name, and change nothing") {
   using Some = std::vector<nook_gl_instance_pose>;
   refused("poses.struct_size", invalid, [](Call& c, Some&) { c.poses.struct_size = 8; });
   refused("poses.format", invalid, [](Call& c, Some&) { c.poses.format = NOOK_FORMAT_UNORM8; });
-  refused("textures are not supported", NOOK_ERROR_UNSUPPORTED, [](Call& c, Some&) { c.poses.texture = 1; });
+  refused("cannot read transforms from a texture", NOOK_ERROR_UNSUPPORTED,
+          [](Call& c, Some&) { c.poses.texture = 1; });
   refused("poses.buffer is 0", invalid, [](Call& c, Some&) { c.poses.buffer = 0; });
   refused("multiples of 4", invalid, [](Call& c, Some&) { c.poses.offset = 2; });
   refused("multiples of 4", invalid, [](Call& c, Some&) { c.poses.size = 0; });
@@ -168,7 +169,7 @@ TEST_CASE("a nook_gl without the poses asks for them, and gets them again") {
   CHECK(twins.difference(poses) <= bound_of_samples);
   const auto is_missing = [&](nook_gl gl) {
     const nook_result result = nook_gl_scene_update(gl, twins.on_gpu.scene);
-    return result == NOOK_ERROR_INVALID_HANDLE && says("call nook_gl_scene_set_poses again");
+    return result == NOOK_ERROR_INVALID_HANDLE && says("call nook_gl_scene_set_poses with this nook_gl");
   };
   SECTION("another nook_gl") {
     nook_gl other = create_gl(twins.host.handle, platform::Context::loader, &context, 0);

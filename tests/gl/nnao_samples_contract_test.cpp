@@ -83,7 +83,7 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
   ScreenFrame frame = frame_desc(camera, width, height, samples, 0, 0.5f);
   nook_nnao_recording recording = nullptr;
   CHECK(nook_nnao_record(pass, &frame, &frame, nullptr, &recording) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("the pass reads texture arrays or multisample textures"));
+  CHECK(message_has("this pass reads texture arrays or multisample textures"));
   NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
   // Normals are optional with samples as without.
   NOOK_OK_OR_FAIL(nook_nnao_render(both, &frame, &frame));

@@ -270,7 +270,7 @@ TEST_CASE("nnao: bad arguments of stages are refused with their name") {
   bad = good, bad.debug.show = NOOK_NNAO_VIEW_NORMALS;
   refused(bad, nullptr, 0, "debug.show 3");
   bad = good, bad.debug.show = NOOK_NNAO_VIEW_RAW;
-  refused(bad, nullptr, 0, "debug.show 1 is not available with desc.max_history_frames 4");
+  refused(bad, nullptr, 0, "debug.show 1 is not available if desc.max_history_frames is not 0 (got 4)");
   CHECK(nook_nnao_stages_frame(nullptr, &good, &good, nullptr, 0, 0, &values) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(nook_nnao_stages_frame(stages, nullptr, &good, nullptr, 0, 0, &values) ==
         NOOK_ERROR_INVALID_ARGUMENT);

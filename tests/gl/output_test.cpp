@@ -265,7 +265,7 @@ TEST_CASE("a texture's width and format are checked as far as the context tells 
   target.format = NOOK_FORMAT_UNORM8;
   CHECK(write() == (asked ? NOOK_ERROR_INVALID_ARGUMENT : NOOK_ERROR_GL));
   says(asked ? "target.format differs from the format of texture"
-             : "on OpenGL ES target.format must be the texture's");
+             : "on OpenGL ES, target.format must match the format of the texture");
   take_debug_messages();
 }
 

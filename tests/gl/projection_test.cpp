@@ -224,12 +224,12 @@ TEST_CASE("projection: reversed depth with the other clip range is refused, and 
                               reversed_zero_to_one(glu_perspective(60, 1.5, 0.1, 100), 0.1, f), zero_to_one};
     calls.check_taken(projection);
     projection.clip = both_signs;
-    calls.check_refused(projection, "set frame.clip_space NOOK_CLIP_SPACE_ZERO_TO_ONE");
+    calls.check_refused(projection, "set frame.clip_space to NOOK_CLIP_SPACE_ZERO_TO_ONE");
   }
   for (const double f : {10.0, 100.0, 20000.0}) {
     RealProjection projection{"reversed, -1 to 1", glu_perspective(60, 1.5, f, 0.1)};
     calls.check_taken(projection);
     projection.clip = zero_to_one;
-    calls.check_refused(projection, "set frame.clip_space NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE");
+    calls.check_refused(projection, "set frame.clip_space to NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE");
   }
 }

@@ -76,11 +76,15 @@ TEST_CASE("an upload binds its textures and constants to a program of its kind, 
 
   gl.UseProgram(0);
   CHECK(nook_gl_upload_bind(grid.get(), lobes_program.name(), 2) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("no sampler of a grid of diffuse light (got nook_probe_texels of a probe of lobes"));
+  CHECK(
+      message_has("upload of a grid of diffuse light: it has the sampler nook_probe_texels, which belongs to "
+                  "a probe of lobes"));
   CHECK(nook_gl_upload_bind(lobes.get(), grid_program.name(), 2) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("no sampler of a probe of lobes (got nook_grid_texels of a grid of diffuse light"));
+  CHECK(
+      message_has("upload of a probe of lobes: it has the sampler nook_grid_texels, which belongs to a grid "
+                  "of diffuse light"));
   CHECK(nook_gl_upload_bind(lobes.get(), plain.name(), 2) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(message_has("need nook_probe_texels"));
+  CHECK(message_has("need the sampler nook_probe_texels"));
   CHECK(nook_gl_upload_bind(lobes.get(), 0, 2) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("not the name of a linked program"));
   CHECK(nook_gl_upload_bind(lobes.get(), lobes_program.name(), 0xffffffffu) == NOOK_ERROR_INVALID_ARGUMENT);

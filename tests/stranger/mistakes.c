@@ -253,7 +253,7 @@ static const struct mistake {
     {"transforms mirrored", mirror_transforms, "mirror z"},
     {"no place", leave_out_place, "place_3x4 missing"},
     {"no place of the positions", leave_out_place_of_positions, "place missing"},
-    {"another place", give_other_place, "another place"},
+    {"another place", give_other_place, "place vertices"},
     {"place as columns", give_place_as_columns, "place transposed"},
     {"rotation of the place transposed", transpose_rotation_of_place, "place transposed"},
     {"another frame", give_other_frame, "frame"},

@@ -77,10 +77,10 @@ SceneSettings nook::settings_of(const nook_scene_desc& desc, const Context& cont
   check_fits("desc.lod_error", desc.lod_error, desc.lod_error >= 0 && desc.lod_error <= huge, "0 or more");
   check_fits("desc.lod_distance", desc.lod_distance,
              desc.lod_distance == 0 || (desc.lod_distance >= tiny && desc.lod_distance <= huge),
-             "a length above 0, or 0 for 10 metres");
+             "a length above 0, or 0 for the default of 10 metres");
   check_fits("desc.ground_radius", desc.ground_radius,
              desc.ground_radius == 0 || (desc.ground_radius >= tiny && desc.ground_radius <= huge),
-             "a length above 0, or 0 for a multiple of each body's size");
+             "a length above 0, or 0 for the default, a multiple of each body's size");
   check_fits("desc.lod_max_interval", desc.lod_max_interval, desc.lod_max_interval >= 1, "1 or more");
   check_fits("desc.strict_poses", desc.strict_poses, desc.strict_poses <= 1, "0 or 1");
   return {

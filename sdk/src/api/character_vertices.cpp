@@ -36,8 +36,8 @@ std::span<const std::uint16_t> bones_of_skin(const CharacterModel& model, std::u
       return std::span(bind.bone_of_joint).subspan(skin.first_joint, skin.joint_count);
   if (bind.skins.empty() && file_skin == 0) return {};
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "desc.skin is not a skin of the model (got %u; the model has %zu, the first has index %u); "
-                "nook_model_describe_skin lists them",
+                "desc.skin is not a skin of the model (got %u; the model has %zu skins, and the first one "
+                "has index %u); nook_model_describe_skin lists them",
                 file_skin, bind.skins.size(), bind.skins.empty() ? 0 : bind.skins.front().file_index);
 }
 

@@ -65,14 +65,14 @@ nook_result nook_context_create(const nook_context_desc* desc, nook_context* out
     *out = nullptr;
     const nook_context_desc settings = read_descriptor(desc);
     if (!settings.allocator.allocate != !settings.allocator.release)
-      throw Failure(
-          NOOK_ERROR_INVALID_ARGUMENT,
-          "desc.allocator has only one function (got %s, need both or none); set allocate and release",
-          settings.allocator.allocate ? "allocate" : "release");
+      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                    "desc.allocator has only one of its two functions (got %s, need both or none); set "
+                    "allocate and release, or leave both NULL",
+                    settings.allocator.allocate ? "allocate" : "release");
     check_known("desc.isa", settings.isa, last_isa());
     check_fits("desc.units_per_metre", settings.units_per_metre,
                settings.units_per_metre >= 1e-6f && settings.units_per_metre <= 1e6f,
-               "1e-6 to 1e6, 1 for metres and 100 for centimetres");
+               "1e-6 to 1e6; 1 means metres, 100 means centimetres");
     const Isa isa = choose_isa(settings.isa);
     HostMemory memory(settings.allocator);
     void* place = static_cast<Memory&>(memory).allocate(sizeof(nook_context_s), alignof(nook_context_s));

@@ -232,8 +232,8 @@ nook_result nook_desc_init(uint32_t type, void* desc, size_t size, uint32_t head
     default:
       return api::enter("nook_desc_init", [&] {
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "type is unknown (got %u, need a NOOK_DESC_ value of this library); call the init "
-                      "function of your descriptor",
+                      "type is unknown (got %u, need a NOOK_DESC_ constant that this library knows); call "
+                      "the init function of your descriptor",
                       type);
       });
   }

@@ -27,8 +27,8 @@ void check_choices(const nook_probe_fit_desc& desc) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.reserved is %u, need 0", desc.reserved);
   if (desc.form == NOOK_FORM_PAPER && (desc.method != NOOK_PROBE_FIT_LEAST_SQUARES || desc.match_sh != 1))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.form NOOK_FORM_PAPER sets desc.method and desc.match_sh itself (got %d and %d, need "
-                  "0 and 1); leave both at their defaults",
+                  "desc.form is NOOK_FORM_PAPER, which itself chooses desc.method and desc.match_sh (got %d "
+                  "and %d, need 0 and 1); leave both at their defaults",
                   desc.method, desc.match_sh);
 }
 
@@ -45,8 +45,8 @@ void check_study(const nook_probe_fit_desc& desc, const nook_probe_fit_study_des
   if (study.method != NOOK_PROBE_FIT_STUDY_DEFAULT &&
       (desc.form != NOOK_FORM_DEFAULT || desc.method != NOOK_PROBE_FIT_LEAST_SQUARES))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "method of nook_probe_fit_study_desc replaces desc.form and desc.method (got desc.form %d "
-                  "and desc.method %d, need 0 and 0); leave both at their defaults",
+                  "`method` of nook_probe_fit_study_desc replaces desc.form and desc.method (got desc.form "
+                  "%d and desc.method %d, need 0 for both); leave both at their defaults",
                   desc.form, desc.method);
 }
 

@@ -125,8 +125,8 @@ void check_rotation(const float* m) {
   const Vec3 third = cross(rows[0], rows[1]) - rows[2];
   if (!(dot(third, third) <= 1e-5f))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "rotation is not a rotation: its rows are not at right angles, or are mirrored; remove "
-                  "scale, shear and reflection");
+                  "rotation is not a rotation matrix: its rows are not at right angles to each other, or it "
+                  "is mirrored; remove scale, shear and reflection");
 }
 
 }  // namespace

@@ -33,15 +33,16 @@ void write_vec3(float* out, Vec3 v) {
 // Reads the coefficients of all probes from fits. All fits must have the same functions.
 void read_fits(const nook_probe_desc& desc, Probes& probes) {
   if (desc.fit_count != probes.grid.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.fit_count is not the number of probes (got %u, need %zu); pass one fit for each",
-                  desc.fit_count, probes.grid.size());
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.fit_count is not the number of probes (got %u, need %zu); pass one fit for each probe",
+        desc.fit_count, probes.grid.size());
   for (std::size_t i = 0; i < desc.fit_count; ++i) {
     if (!desc.fits[i]) throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.fits[%zu] is NULL", i);
     if (!(desc.fits[i]->fit.basis() == desc.fits[0]->fit.basis()))
       throw Failure(
           NOOK_ERROR_INVALID_ARGUMENT,
-          "desc.fits[%zu] has different functions from desc.fits[0]; create all fits with equal descriptors",
+          "desc.fits[%zu] and desc.fits[0] have different functions; create all fits with equal descriptors",
           i);
   }
   probes.basis = desc.fits[0]->fit.basis();

@@ -78,10 +78,10 @@ void write_baked(const nook_transfer_response_s& response, const nook_transfer_v
         "desc.transfer already contains the tangent frames; set desc.normals and desc.tangents to NULL");
   check_same_lobes(baked, desc.lobe_count);
   if (desc.first_vertex > baked.vertex_count() || vertex_count > baked.vertex_count() - desc.first_vertex)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the vertices are out of range (got %u vertices from vertex %u, but the transfer has %u vertices)",
-        vertex_count, desc.first_vertex, baked.vertex_count());
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the vertices are out of range (got %u vertices, starting at vertex %u, but the transfer "
+                  "has only %u vertices)",
+                  vertex_count, desc.first_vertex, baked.vertex_count());
   check_same_light(baked, response.response.light_modes, response.response.light_hash);
   const VectorOutput output = output_of(vectors, vertex_count, stride, response.response);
   baked_vectors(response.response, response.isa, {desc.amplitudes, std::size_t(3) * desc.lobe_count}, baked,

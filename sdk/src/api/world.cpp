@@ -70,7 +70,8 @@ nook_result nook_world_sample(nook_scene scene, const nook_world_sample_desc* de
     const nook_world_sample_desc given = read_descriptor(desc);
     if (light && given.light_degrees == 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "light is not NULL, but desc.light_degrees is 0; set it to the full angle of the light");
+                    "light is not NULL, but desc.light_degrees is 0; set it to the angle from one edge of "
+                    "the light to the other");
     world::SampleRequest request = request_of(given, scene ? scene->scene.settings.cutoff_error : 0);
     world::LightTerms terms;
     if (given.directional_ao) {

@@ -55,8 +55,8 @@ void check_clips(const ClipSet& set, nook_result code) {
                     c, double(clip.duration_s), double(max_duration_s));
     if (clip.first_frame != frames || clip.frame_count < 1 || clip.frame_count > set.frame_count - frames)
       throw Failure(code,
-                    "the frames of clip %zu are out of range (got %u frames from frame %u, need at least 1 "
-                    "from frame %u, of %u in all); bake the clips again",
+                    "the frames of clip %zu are out of range (got %u frames, starting at frame %u; need at "
+                    "least 1 frame, starting at frame %u, and the file has %u frames); bake the clips again",
                     c, clip.frame_count, clip.first_frame, frames, set.frame_count);
     frames += clip.frame_count;
   }
@@ -221,8 +221,8 @@ void read_names(ByteReader in, ClipSet& set) {
     frames += clip.frame_count;
     if (frames > set.frame_count)
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "the clips have more frames than the file (got %llu up to clip %u, need at most %u); "
-                    "bake the clips again",
+                    "the clips have more frames than the file (got %llu frames in the clips up to clip %u, "
+                    "need at most %u); bake the clips again",
                     static_cast<unsigned long long>(frames), c, set.frame_count);
   }
   in.check_end();

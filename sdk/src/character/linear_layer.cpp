@@ -13,7 +13,7 @@ void check_influences(const CharacterModel& model) {
   const std::size_t entries = model.vertex_count() * model.influences;
   if (model.alpha.size() != entries || model.blend.size() != entries || model.influence.size() != entries)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "linear layer has %zu indices, %zu alphas and %zu blend weights (need %zu of each)",
+                  "the linear layer has %zu indices, %zu alphas and %zu blend weights (need %zu of each)",
                   model.influence.size(), model.alpha.size(), model.blend.size(), entries);
   for (std::size_t e = 0; e < entries; ++e)
     if (model.alpha[e] != 0 && model.influence[e] >= model.key_points.size())

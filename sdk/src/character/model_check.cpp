@@ -108,7 +108,7 @@ void check_linear_layer(const CharacterModel& model, const Check& check) {
     check.that(sum > 0, "sum of alphas of vertex", i, sum, "more than 0");
     for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e)
       check.that(model.alpha[e] > 0 || model.blend[e] == 0, "blend weight of vertex", i, model.blend[e],
-                 "0 where alpha is 0");
+                 "0, because its alpha is 0");
     // The tolerance: the sum has eight additions of values up to 16.
     check.that(within(blend_sum, 1 - 1e-4f, 1 + 1e-4f), "sum of blend weights of vertex", i, blend_sum, "1");
     check.that(within(std::abs(model.bias[i]), 0, max_coefficient), "bias of vertex", i, model.bias[i],
@@ -171,7 +171,7 @@ void check_file_order(const CharacterModel& model, const Check& check) {
   std::uint64_t next = 0;
   for (std::size_t p = 0; p < model.primitives.size(); ++p) {
     check.that(model.primitives[p].first_vertex == next, "first vertex of primitive", p,
-               model.primitives[p].first_vertex, "the end of the primitive before");
+               model.primitives[p].first_vertex, "the end of the previous primitive");
     next += model.primitives[p].vertex_count;
   }
   check.sized("file vertices", model.file_to_welded.size(), next);
@@ -195,7 +195,8 @@ void check_bind_data(const CharacterModel& model, const Check& check) {
     check.that(is_invertible(bone.node_from_rest), "bind matrix of bone", b, 0, "an invertible matrix");
     check.that(
         bone.first_of_joint <= b && bind.bones[bone.first_of_joint].first_of_joint == bone.first_of_joint,
-        "first bone of the joint of bone", b, bone.first_of_joint, "an earlier bone or itself");
+        "first bone of the joint of bone", b, bone.first_of_joint,
+        "the index of an earlier bone or of the bone itself");
   }
   const std::size_t spaces = bind.rest_from_mesh.size();
   check.count("spaces of meshes", spaces, 0, max_indexed);
@@ -209,7 +210,7 @@ void check_bind_data(const CharacterModel& model, const Check& check) {
     const SkinBind& skin = bind.skins[s];
     check.that(skin.space < spaces, "space of skin", s, skin.space, "less than the number of spaces");
     check.that(std::uint64_t(skin.first_joint) + skin.joint_count <= bind.bone_of_joint.size(),
-               "joints of skin", s, skin.joint_count, "a part of the list of joints");
+               "joints of skin", s, skin.joint_count, "a range inside the list of joints");
   }
   for (std::size_t j = 0; j < bind.bone_of_joint.size(); ++j)
     check.that(bind.bone_of_joint[j] < model.bone_count(), "bone of joint", j, bind.bone_of_joint[j],

@@ -36,8 +36,8 @@ void read_bone_names(ByteReader in, CharacterModel& model) {
     if (shared > before || shared > max_shared_name)
       throw Failure(
           NOOK_ERROR_BAD_FILE,
-          "the name of bone %u shares too many bytes with the name before it (got %u); bake the file again",
-          i, shared);
+          "the name of bone %u shares too many bytes with the previous name (got %u); bake the file again", i,
+          shared);
     const std::string_view tail = in.text(rest);
     String& name = model.bone_names.emplace_back();
     name.reserve(shared + rest);
@@ -145,8 +145,8 @@ void read_linear_layer(ByteReader in, CharacterModel& model) {
         if (!in.bits(1)) continue;
         if (e == count)
           throw Failure(NOOK_ERROR_BAD_FILE,
-                        "vertex %u copies more key points from other vertices than it has itself (%u); bake "
-                        "the file again",
+                        "vertex %u copies more key points from an earlier vertex than it has in total (%u); "
+                        "bake the file again",
                         i, count);
         model.influence[first + e++] = other[o];
       }

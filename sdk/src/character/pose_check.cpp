@@ -205,12 +205,11 @@ bool explain_by_order(const Check& check, PoseFinding& finding) {
   const std::size_t transforms = count_of_different(all, [](const Misplaced& m) { return m.transform; });
   if (bones > 1 && 2 * transforms <= bones) return false;
   const std::uint32_t bone = found[0].bone;
-  explain(
-      finding, NOOK_POSE_FAULT_ORDER,
-      "transforms go to the wrong bones: %zu of %zu vertices fit under the transform of another bone; bone "
-      "%u (\"%s\") fits with transform %lld; map bones by name",
-      found.size(), off, bone, check.model.bone_names[bone].c_str(),
-      static_cast<long long>(found[0].transform));
+  explain(finding, NOOK_POSE_FAULT_ORDER,
+          "the transforms are assigned to the wrong bones: %zu of %zu vertices match only with the transform "
+          "of another bone; for example, bone %u (\"%s\") matches with transform %lld; map bones by name",
+          found.size(), off, bone, check.model.bone_names[bone].c_str(),
+          static_cast<long long>(found[0].transform));
   if (found.size() < off || transforms < bones)
     explain(finding, NOOK_POSE_FAULT_UNKNOWN, "the pose and the vertices are from different frames");
   return true;
@@ -277,9 +276,9 @@ void explain_difference(Check& check, const Reading& as_given, PoseFinding& find
     explain_by_two_mistakes(check, {readings.data(), readings.size()}, finding, memory);
   if (finding.fault == NOOK_POSE_FAULT_NONE)
     explain(finding, NOOK_POSE_FAULT_UNKNOWN,
-            "the pose differs by up to %.3g of the bounding radius, most at bone %u (\"%s\"), and no known "
-            "mistake explains the difference; check that the pose and the vertices are from the same clip, "
-            "frame, mesh and file",
+            "the pose differs from the vertices by up to %.3g of the bounding radius, most at bone %u "
+            "(\"%s\"), and no known mistake explains the difference; check that the pose and the vertices "
+            "are from the same clip, frame, mesh and file",
             finding.max_error, finding.worst_bone, check.model.bone_names[finding.worst_bone].c_str());
 }
 

@@ -107,7 +107,7 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
   const bool is_given = !is_same(given, none, tolerance_m);
   constexpr nook_pose_fault fault = NOOK_POSE_FAULT_PLACE;
   if (is_given && fits_under(points, inverse(given))) {
-    explain(finding, fault, "desc.place_3x4 is the inverse of the place");
+    explain(finding, fault, "desc.place_3x4 is inverted; pass the matrix from model space to world space");
     return true;
   }
   // If the host passed the columns of a 4x4 matrix, the translation is lost. So only the rotation is
@@ -124,16 +124,16 @@ bool explain_by_known_place(const PosedPoints& points, const Affine& true_place,
   if (is_of_vertices && fits_under(points, points.vertex_place)) {
     if (is_given)
       explain(finding, fault,
-              "desc.place_3x4 is another place than the place of the vertices; the pose matches the vertices "
-              "with check.place_3x4");
+              "desc.place_3x4 is not the place of the vertices; with check.place_3x4 as the place, the pose "
+              "matches the vertices");
     else
       explain(finding, fault,
-              "desc.place_3x4 is missing; the pose matches the vertices with check.place_3x4");
+              "desc.place_3x4 is missing; with check.place_3x4 as the place, the pose matches the vertices");
     return true;
   }
   if (is_given && fits_under(points, none)) {
     explain(finding, fault,
-            "the pose stands at another place than the vertices, and matches them without desc.place_3x4: "
+            "the pose is at another place than the vertices, but matches them if desc.place_3x4 is left out: "
             "either the transforms already lead to world space, or check.place_3x4 (the place of the "
             "vertices) is missing");
     return true;
@@ -170,8 +170,8 @@ bool explain_by_place(const PosedPoints& points, PoseFinding& finding) {
   const char* const axis = is_mirrored ? mirrored_axis(map, scale, points.pose_place) : "";
   if (std::abs(scale - 1) > 0.02) {
     if (explain(finding, NOOK_POSE_FAULT_UNIT,
-                "the pose is in another unit than the vertices: it fits when multiplied by %.6g%s%s; scale "
-                "desc.place_3x4 or the vertices' place",
+                "the pose is in another unit than the vertices: it matches when multiplied by %.6g%s%s; "
+                "scale desc.place_3x4 or check.place_3x4",
                 scale, is_mirrored ? " and mirrored" : "", axis))
       finding.scale = scale;
   } else if (is_mirrored) {
@@ -182,8 +182,8 @@ bool explain_by_place(const PosedPoints& points, PoseFinding& finding) {
         axis);
   } else {
     explain(finding, NOOK_POSE_FAULT_PLACE,
-            "the pose is right, but stands at another place than the vertices: it fits when turned by %.3g "
-            "degrees and moved by (%.4g %.4g %.4g); one of the two places is wrong or missing",
+            "the pose is right, but is at another place than the vertices: it matches when turned by %.3g "
+            "degrees and moved by (%.4g %.4g %.4g); desc.place_3x4 or check.place_3x4 is wrong or missing",
             turn_degrees(map, scale), map.m[3], map.m[7], map.m[11]);
   }
   return true;

@@ -152,7 +152,7 @@ void describe_transposed(const PoseSource& given, const Reading& reading, PoseFi
             kind_name(source.kind));
   else if (reading.is_turned_back)
     explain(finding, NOOK_POSE_FAULT_TRANSPOSED,
-            "the rotations are transposed, while the translations are right");
+            "the rotations are transposed, but the translations are right; transpose the rotations");
   else
     explain(
         finding, NOOK_POSE_FAULT_TRANSPOSED,
@@ -171,13 +171,14 @@ void describe(const CharacterModel& model, const PoseSource& given, const Readin
       break;
     case NOOK_POSE_FAULT_NO_BIND:
       if (explain(finding, reading.fault,
-                  "skinning matrices were passed as rest-to-world matrices, so S^-1 is missing; set "
-                  "desc.kind to NOOK_POSE_SKINNING and desc.skin to %u",
+                  "skinning matrices were passed, but desc.kind says rest-to-world matrices, so the factor "
+                  "S^-1 is missing; set desc.kind to NOOK_POSE_SKINNING and desc.skin to %u",
                   skin))
         finding.fitting_skin = skin;
       break;
     case NOOK_POSE_FAULT_SKIN:
-      if (explain(finding, reading.fault, "the skinning matrices belong to skin %u, not to skin %u", skin,
+      if (explain(finding, reading.fault,
+                  "the skinning matrices belong to skin %u, not to skin %u; set desc.skin", skin,
                   model.bind.skins[given.skin].file_index))
         finding.fitting_skin = skin;
       break;
@@ -187,18 +188,18 @@ void describe(const CharacterModel& model, const PoseSource& given, const Readin
       break;
     case NOOK_POSE_FAULT_INVERTED:
       explain(finding, reading.fault,
-              "the transforms are the inverses of what is needed: they lead from the world to the joints");
+              "the transforms are inverted: they lead from world space to the joints; pass their inverses");
       break;
     case NOOK_POSE_FAULT_PLACE:
-      explain(
-          finding, reading.fault,
-          "the transforms are a mirror image in %c, as in left-handed engines; negate everything along %c",
-          "xyz"[reading.mirrored_axis], "xyz"[reading.mirrored_axis]);
+      explain(finding, reading.fault,
+              "the transforms are mirrored along %c, as in left-handed engines; negate everything along %c",
+              "xyz"[reading.mirrored_axis], "xyz"[reading.mirrored_axis]);
       break;
     case NOOK_POSE_FAULT_UNIT:
-      if (explain(finding, reading.fault,
-                  "the translations are in another unit than the vertices: they fit when multiplied by %.6g",
-                  reading.translation_scale))
+      if (explain(
+              finding, reading.fault,
+              "the translations are in another unit than the vertices: they match when multiplied by %.6g",
+              reading.translation_scale))
         finding.scale = reading.translation_scale;
       break;
     default:

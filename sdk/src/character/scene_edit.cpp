@@ -366,7 +366,8 @@ void link(Scene& scene, nook_instance_id receiver, nook_instance_id caster) {
   Instance& casting = instance_of(scene, caster);
   if (receiver == caster)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "receiver and caster are the same instance %u; an instance always shadows itself",
+                  "receiver and caster are the same instance %u; leave out this link, because an instance "
+                  "always shadows itself",
                   receiver);
   const std::uint32_t slot = slot_of(scene, casting);
   if (std::binary_search(instance.input.linked.begin(), instance.input.linked.end(), slot)) return;

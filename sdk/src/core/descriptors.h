@@ -85,11 +85,13 @@ void check_extensions(const void* next) {
       ((type == descriptor_type<Ext> ? times = ++seen[i] : 0, ++i), ...);
       if (times == 0)
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "desc.next holds a descriptor that this one does not take (got type %u); remove it",
+                      "desc.next points to a descriptor that cannot extend this one (got type %u); remove it",
                       type);
       if (times > 1)
-        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "desc.next holds two descriptors of one type (got type %u); remove one", type);
+        throw Failure(
+            NOOK_ERROR_INVALID_ARGUMENT,
+            "the list in desc.next contains two descriptors of the same type (got type %u); remove one",
+            type);
     }
   }
 }
@@ -107,8 +109,9 @@ Desc read_descriptor(const Desc* desc) {
                   "desc.struct_size is too small (got %zu, need at least %zu); call %s", size,
                   first_size<Desc>, descriptor_init<Desc>);
   if (desc->type != descriptor_type<Desc>)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "desc.type is another descriptor's (got %u, need %u); call %s",
-                  desc->type, descriptor_type<Desc>, descriptor_init<Desc>);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "desc.type belongs to another descriptor (got %u, need %u); call %s", desc->type,
+                  descriptor_type<Desc>, descriptor_init<Desc>);
   check_extensions<Ext...>(desc->next);
   const auto* bytes = reinterpret_cast<const unsigned char*>(desc);
   for (std::size_t i = sizeof(Desc); i < size; ++i)

@@ -155,11 +155,11 @@ void check_perspective_depth(const Matrix& m, ClipRange clip) {
                        changed.ratio() > usual_depth_ratio;
   if (given.before_camera() && !doubled) return;
   if (changed.before_camera())
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "frame.projection has reversed depth for another clip range (got [10] %g and [14] %g, which with "
-        "frame.clip_space %d put the ends of the range at %g and %g metres); set frame.clip_space %s",
-        m[10], m[14], int(clip), 1 / given.first, 1 / given.last, clip_name(other));
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "frame.projection has reversed depth for another clip range (got [10] %g and [14] %g; with "
+                  "frame.clip_space %d, the ends of the depth range would lie at %g and %g metres); set "
+                  "frame.clip_space to %s",
+                  m[10], m[14], int(clip), 1 / given.first, 1 / given.last, clip_name(other));
   throw Failure(
       NOOK_ERROR_INVALID_ARGUMENT,
       "frame.projection has its near or far plane behind the camera (got [10] %g and [14] %g, which put the "

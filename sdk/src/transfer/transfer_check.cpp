@@ -70,7 +70,7 @@ void check_paper(const Transfer& transfer, nook_result code) {
   check_halves(p.coefficients, 1, "coefficients", code);
   for (std::size_t v = 0; v < vertices; ++v)
     if (p.cluster[v] >= p.clusters)
-      throw Failure(code, "vertex %zu belongs to cluster %u, but there are only %u", v,
+      throw Failure(code, "vertex %zu belongs to cluster %u, but there are only %u clusters", v,
                     std::uint32_t(p.cluster[v]), p.clusters);
 }
 

@@ -257,7 +257,7 @@ TEST_CASE("settings that make no sense are refused before the job starts") {
   }
   SECTION("an extension of another type") {
     study.type = NOOK_DESC_BAKE_CLIPS;
-    expected = "desc.next holds a descriptor that this one does not take";
+    expected = "desc.next points to a descriptor that cannot extend this one";
   }
   SECTION("saturation of the paper's form") {
     desc.saturation = 1;

@@ -22,8 +22,8 @@ void check_range_of(const nook_gl_poses& poses) {
   need(poses.pose, "poses.pose");
   if (poses.texture)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "poses.texture is %u, and transforms in textures are not supported; copy the texels to a "
-                  "buffer",
+                  "poses.texture is %u, but Nook cannot read transforms from a texture; copy the texels to a "
+                  "buffer, and set poses.buffer",
                   poses.texture);
   if (!poses.buffer)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "poses.buffer is 0; set it to the name of an OpenGL buffer");
@@ -39,7 +39,8 @@ PoseSource checked_source(const CharacterModel& model, const nook_gl_poses& pose
   PoseSource source = api::source_of(model, poses.pose);
   if (source.transforms)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "poses.pose->transforms is not NULL; the transforms are in poses.buffer");
+                  "poses.pose->transforms is not NULL; set it to NULL, because Nook reads the transforms "
+                  "from poses.buffer");
   if (poses.pose->place_3x4)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "poses.pose->place_3x4 is not NULL; set instances[].place_3x4 for each instance instead");
@@ -79,8 +80,8 @@ void check_buffer(const gl::Device& device, const nook_gl_poses& poses) {
   device.check("binding the host's buffer");
   if (poses.offset + poses.size > static_cast<std::uint64_t>(size))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "poses.buffer %u is too small (it has %llu bytes, the range ends at %llu)", poses.buffer,
-                  static_cast<unsigned long long>(size),
+                  "poses.buffer %u is too small (it has %llu bytes, but poses.offset + poses.size is %llu)",
+                  poses.buffer, static_cast<unsigned long long>(size),
                   static_cast<unsigned long long>(poses.offset + poses.size));
 }
 

@@ -40,7 +40,8 @@ void check_target(const nook_gl_ao_target& target, std::uint32_t count) {
   constexpr std::uint64_t max_offset = std::uint64_t{1} << 40;
   if (target.offset > max_offset || target.instance_stride > max_offset || count > (1u << 20))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.offset, target.instance_stride or count is out of range (got %llu, %llu and %u)",
+                  "target.offset, target.instance_stride or count is out of range (got %llu, %llu and %u, "
+                  "need at most 2^40 bytes, 2^40 bytes and 1048576 instances)",
                   static_cast<unsigned long long>(target.offset),
                   static_cast<unsigned long long>(target.instance_stride), count);
   const bool in_buffer = target.buffer != 0;

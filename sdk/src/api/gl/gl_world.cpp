@@ -94,7 +94,7 @@ void put_light(gl::WorldFrame& drawn, const nook_world_frame_desc& desc, bool co
   if (desc.light_degrees == 0) return;
   const Vec3 axis = api::checked_light("desc", desc.light_axis, desc.light_degrees);
   check_fits("desc.light_reach", desc.light_reach, desc.light_reach >= 0 && desc.light_reach <= max_metres,
-             "a length above 0, or 0 for 30 metres");
+             "a length above 0, or 0 for the default of 30 metres");
   const float reach = desc.light_reach > 0 ? desc.light_reach : default_reach_m * units_per_metre;
   drawn.cone = gl::LightCone{axis, api::half_angle_radians(desc.light_degrees), reach};
 }

@@ -151,10 +151,11 @@ nook_result nook_nnao_record(nook_nnao pass, const nook_gl_frame_desc* frame,
     const gl::NnaoFrame known = read_nnao_frame(frame, desc);
     gl::check_frame(known, pass->desc);
     if (pass->desc.views != 0 || pass->desc.depth_samples != 0)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the pass reads texture arrays or multisample textures (desc.views %d, "
-                    "desc.depth_samples %d; need 0); record one view with a pass for 2D textures",
-                    pass->desc.views, pass->desc.depth_samples);
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "this pass reads texture arrays or multisample textures, which cannot be recorded (got desc.views "
+          "%d and desc.depth_samples %d, need 0 for both); record one view with a pass for 2D textures",
+          pass->desc.views, pass->desc.depth_samples);
     gl::Device& device = pass->gl->device;
     std::optional<nnao::Recording> recorded;
     device.need_alive();

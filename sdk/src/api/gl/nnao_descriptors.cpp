@@ -54,12 +54,14 @@ gl::NnaoSettings checked_nnao_desc(const nook_nnao_desc* given) {
   const gl::NnaoSettings desc = settings_of(given);
   check_max_size(desc.max_width, desc.max_height);
   if (desc.taps < 0 || nnao::horizon_grid(static_cast<std::uint32_t>(desc.taps)).steps == 0)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256, or -1 for the preset's)",
-                  desc.taps);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "desc.taps is unknown (got %d, need 9, 16, 32, 64, 128 or 256, or -1 for the preset's number)",
+        desc.taps);
   check_fits("desc.half_resolution", desc.half_resolution,
-             desc.half_resolution >= 0 && desc.half_resolution <= 1, "0 or 1, or -1 for the preset's");
-  check_fits("desc.blur", desc.blur, desc.blur >= 0 && desc.blur <= 2, "0 to 2, or -1 for the preset's");
+             desc.half_resolution >= 0 && desc.half_resolution <= 1, "0 or 1, or -1 for the preset's value");
+  check_fits("desc.blur", desc.blur, desc.blur >= 0 && desc.blur <= 2,
+             "0 to 2, or -1 for the preset's value");
   check_fits("desc.blur_sharpness", desc.blur_sharpness, desc.blur_sharpness > 0, "more than 0");
   check_switch("desc.bent_normals", desc.bent_normals);
   check_fits("desc.max_history_frames", desc.max_history_frames,

@@ -43,7 +43,8 @@ gl::NnaoFrame checked_frame(const nook_gl_frame_desc* given, const nook_nnao_fra
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "frame.blend is unknown (got %d, need 0 or 1)", blend);
   if (frame.show == NOOK_NNAO_VIEW_RAW && desc.max_history_frames)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "debug.show %d is not available with desc.max_history_frames %d; read NOOK_NNAO_IMAGE_AO",
+                  "debug.show %d is not available if desc.max_history_frames is not 0 (got %d); read "
+                  "NOOK_NNAO_IMAGE_AO instead",
                   frame.show, desc.max_history_frames);
   frame.blend = blend;
   // The format of the host's normal texture is not known here. A normal_bias other than 0 is only useful for

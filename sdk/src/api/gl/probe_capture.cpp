@@ -57,7 +57,8 @@ gl::CaptureSettings settings_of(const nook_gl_capture_desc& desc) {
 void check_targets(nook_gl gl, const nook_gl_capture_desc& desc) {
   if (!desc.probe && !desc.grid)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.probe and desc.grid are NULL; at least one texture must receive the light");
+                  "desc.probe and desc.grid are both NULL; set at least one of them to the upload that "
+                  "receives the light");
   if ((desc.probe && desc.probe->gl != gl) || (desc.grid && desc.grid->gl != gl))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.probe or desc.grid belongs to another nook_gl; upload both with the same nook_gl as "
@@ -71,13 +72,13 @@ void check_targets(nook_gl gl, const nook_gl_capture_desc& desc) {
                   "desc.grid is not an upload of NOOK_GL_PROBE_SH or NOOK_GL_PROBE_ZH3; pass an upload of "
                   "lobes as desc.probe instead");
   if (desc.probe && desc.probe->probe()->basis().domain != probe::Domain::sphere)
-    throw Failure(
-        NOOK_ERROR_INVALID_ARGUMENT,
-        "the lobes of desc.probe cover only a hemisphere; a cube map needs NOOK_PROBE_DOMAIN_SPHERE");
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the lobes of desc.probe cover only a hemisphere, but a cube map covers all directions; "
+                  "create the probe with NOOK_PROBE_DOMAIN_SPHERE");
   if (desc.probe && desc.grid && !(desc.probe->probe()->grid() == desc.grid->grid()->grid()))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc.probe and desc.grid are different grids; both need the same counts, origin and "
-                  "spacing");
+                  "desc.probe and desc.grid were uploaded from different grids; use grids with the same "
+                  "counts, origin and spacing");
 }
 
 void need_index(const gl::ProbeCapture& capture, std::uint32_t index) {

@@ -110,13 +110,14 @@ const char* kind_of(std::string_view uniform) {
   for (const Mark& mark : marks)
     if (gl.GetUniformLocation(program, mark.uniform) >= 0)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "program has no sampler of %s (got %s of %s, need %s); compile it with the GLSL of this "
-                    "upload",
+                    "program cannot use this upload of %s: it has the sampler %s, which belongs to %s (need "
+                    "the sampler %s); compile it with the GLSL of this upload",
                     kind_of(info.textures[0].uniform), mark.uniform, mark.kind, info.textures[0].uniform);
-  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "program has no sampler of %s (need %s); compile it with the GLSL of this upload and call "
-                "its functions. If no shader of the program reads the upload's textures, do not bind it",
-                kind_of(info.textures[0].uniform), info.textures[0].uniform);
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "program cannot use this upload of %s (need the sampler %s); compile it with the GLSL of this upload "
+      "and call its functions. If no shader of the program reads the upload's textures, do not bind it",
+      kind_of(info.textures[0].uniform), info.textures[0].uniform);
 }
 
 void check_program(const gl::Functions& gl, GLuint program) {
@@ -197,7 +198,7 @@ nook_result nook_gl_update_probe(nook_gl_upload upload, nook_probe probe) {
       gl.guarded(gl::grids, [&] { grid->update(probe->probes); });
     else
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "upload is %s; pass an upload that nook_gl_upload_probe created",
+                    "upload is %s, not a probe; pass an upload that nook_gl_upload_probe created",
                     kind_of(info_of(*upload).textures[0].uniform));
   });
 }

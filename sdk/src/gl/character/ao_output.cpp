@@ -51,8 +51,8 @@ void AoOutput::write(const VertexValues& source, const BufferTarget& target) {
   const std::uint64_t size = size_of_buffer(device_, target.buffer);
   if (target.offset > size || bytes > size - target.offset)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.buffer %u is too small (it has %llu bytes, the values end at %llu)", target.buffer,
-                  static_cast<unsigned long long>(size),
+                  "target.buffer %u is too small (it has %llu bytes, but the values would end at byte %llu)",
+                  target.buffer, static_cast<unsigned long long>(size),
                   static_cast<unsigned long long>(target.offset + bytes));
   if (target.stride)
     write_strided(source, target);
@@ -119,7 +119,8 @@ void AoOutput::write_strided(const VertexValues& source, const BufferTarget& tar
   const std::uint64_t target_end = target.offset + std::uint64_t{target.stride} * (source.vertices - 1) + 4;
   if (target_end - target_begin > device_.max_piece_bytes)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the values of an instance span %llu bytes (this OpenGL can write at most %llu)",
+                  "the values of an instance span %llu bytes, but this OpenGL can write at most %llu; use a "
+                  "smaller target.stride",
                   static_cast<unsigned long long>(target_end - target_begin),
                   static_cast<unsigned long long>(device_.max_piece_bytes));
   gl.UseProgram(program.name());
@@ -159,10 +160,10 @@ std::uint32_t checked_width(const Device& device, const VertexValues& source, co
                   target.texture, target.width, width);
   const std::uint64_t texels = std::uint64_t(width) * std::uint64_t(height);
   if (target.first_texel > texels || source.vertices > texels - target.first_texel)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "target.texture %u is too small (it has %d x %d texels, the values end at texel %llu)",
-                  target.texture, width, height,
-                  static_cast<unsigned long long>(target.first_texel + source.vertices));
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "target.texture %u is too small (it has %d x %d texels, but the values would end at texel %llu)",
+        target.texture, width, height, static_cast<unsigned long long>(target.first_texel + source.vertices));
   return static_cast<std::uint32_t>(width);
 }
 
@@ -243,7 +244,8 @@ void AoOutput::write_rows(const VertexValues& source, const TextureTarget& targe
     written += across * down;
   }
   gl.BindBuffer(GL_PIXEL_UNPACK_BUFFER, 0);
-  device_.check("writing AO to the host's texture (on OpenGL ES target.format must be the texture's)");
+  device_.check(
+      "writing AO to the host's texture (on OpenGL ES, target.format must match the format of the texture)");
 }
 
 }  // namespace nook::gl

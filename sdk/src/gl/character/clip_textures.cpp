@@ -20,7 +20,7 @@ void check_size(const Device& device, const ClipTexels& size) {
       ClipTexels::width > std::uint32_t(most))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "the clips are too large for a texture of this OpenGL (got %u x %u texels, need at most %d "
-                  "each); bake fewer frames",
+                  "along each side); bake fewer frames",
                   ClipTexels::width, size.height(), most);
 }
 

@@ -53,8 +53,8 @@ void lay_out_piece(const Device& device, ComputeChunk& chunk, std::uint64_t cast
   frame.bytes = (first_light + lights) * sizeof(Word4);
   if (frame.bytes > device.max_piece_bytes)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the poses, links and lights of a chunk need %llu bytes, but this OpenGL allows %llu; link "
-                  "fewer instances",
+                  "the poses, links and lights of one group of instances need %llu bytes, but this OpenGL "
+                  "allows %llu; link fewer instances",
                   static_cast<unsigned long long>(frame.bytes),
                   static_cast<unsigned long long>(device.max_piece_bytes));
   frame.bones = static_cast<std::uint32_t>(bones);
@@ -68,8 +68,8 @@ void need_pose(const ComputeChunk& chunk, const Placement<ComputeChunk>& placeme
                const Instance& instance) {
   if (chunk.posed_of[placement.place] != pose_of(instance))
     throw Failure(NOOK_ERROR_INVALID_HANDLE,
-                  "this nook_gl does not have the pose of instance %u, which is on the GPU; call "
-                  "nook_gl_scene_set_poses again",
+                  "the pose of instance %u is on the GPU, but not in this nook_gl; call "
+                  "nook_gl_scene_set_poses with this nook_gl",
                   instance.id);
 }
 

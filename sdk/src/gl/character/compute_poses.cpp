@@ -56,8 +56,8 @@ void check_place(const ComputeScene& placed, const PoseBatch& batch, const Insta
   if (batch.source.is_partial && instance.input.is_posed_on_gpu &&
       placement.chunk->posed_of[placement.place] != pose_of(instance))
     throw Failure(NOOK_ERROR_INVALID_HANDLE,
-                  "this nook_gl does not have the pose of instance %u, but the bones without a transform "
-                  "would keep it; set all bones once",
+                  "instance %u would keep its last pose for the bones without a transform, but this nook_gl "
+                  "does not have that pose; first set all bones in one call",
                   instance.id);
 }
 
@@ -91,11 +91,11 @@ std::uint64_t lay_out_jobs(const Device& device, ComputeScene& placed) {
                                    frame.seeds * bones * NOOK_BONE_ROWS;
     frame.bytes = elements * sizeof(Word4);
     if (frame.bytes > device.max_piece_bytes)
-      throw Failure(
-          NOOK_ERROR_UNSUPPORTED,
-          "the poses of a chunk need %llu bytes, but this OpenGL allows %llu; pass fewer instances in a call",
-          static_cast<unsigned long long>(frame.bytes),
-          static_cast<unsigned long long>(device.max_piece_bytes));
+      throw Failure(NOOK_ERROR_UNSUPPORTED,
+                    "the poses of one group of instances need %llu bytes, but this OpenGL allows %llu; pass "
+                    "fewer instances in a call",
+                    static_cast<unsigned long long>(frame.bytes),
+                    static_cast<unsigned long long>(device.max_piece_bytes));
     frame.offset = (end + device.storage_alignment - 1) / device.storage_alignment * device.storage_alignment;
     end = frame.offset + frame.bytes;
   }

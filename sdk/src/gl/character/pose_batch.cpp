@@ -37,9 +37,10 @@ void check_instance_pose(const PoseBatch& batch, std::size_t index) {
   const std::uint64_t end =
       pose.first_transform * std::uint64_t{batch.source.stride} + batch.instance_bytes();
   if (end > batch.size)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "poses.size is too small for instances[%zu] (got %llu bytes, its transforms end at %llu)",
-                  index, static_cast<unsigned long long>(batch.size), static_cast<unsigned long long>(end));
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "poses.size is too small for instances[%zu] (got %llu bytes, but its transforms end at byte %llu)",
+        index, static_cast<unsigned long long>(batch.size), static_cast<unsigned long long>(end));
 }
 
 PoseWindows::PoseWindows(const Device& device, const PoseBatch& batch)
@@ -54,9 +55,10 @@ PoseWindows::PoseWindows(const Device& device, const PoseBatch& batch)
   const std::uint64_t one = batch.instance_bytes();
   step_ = one < limit_ ? (limit_ - one) / device.storage_alignment * device.storage_alignment : 0;
   if (step_ == 0)
-    throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "the transforms of one instance span %llu bytes, but this OpenGL allows %llu",
-                  static_cast<unsigned long long>(one), static_cast<unsigned long long>(limit_));
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "the transforms of one instance span %llu bytes, but this OpenGL allows %llu; use a smaller stride",
+        static_cast<unsigned long long>(one), static_cast<unsigned long long>(limit_));
   count_ = static_cast<std::uint32_t>((end_ + step_ - 1) / step_);
 }
 

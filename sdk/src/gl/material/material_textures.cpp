@@ -29,7 +29,7 @@ void check_blocks(const Functions& gl, const TensorTables& t) {
   if (!(is_rgtc ? gl.can.rgtc_textures : gl.can.eac_textures))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "this %s does not support the block compression of the material's modes (got %s, need %s); "
-                  "load the material with other blocks",
+                  "load the material with another value of desc.blocks",
                   api_name(gl), is_rgtc ? "NOOK_MATERIAL_BLOCKS_RGTC" : "NOOK_MATERIAL_BLOCKS_EAC",
                   gl.can.rgtc_textures  ? "NOOK_MATERIAL_BLOCKS_RGTC or _NONE"
                   : gl.can.eac_textures ? "NOOK_MATERIAL_BLOCKS_EAC or _NONE"

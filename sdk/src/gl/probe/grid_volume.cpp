@@ -130,7 +130,7 @@ void check_size(const Device& device, const GridTexelPlan& plan) {
   if (*std::max_element(plan.size.begin(), plan.size.end()) > std::uint32_t(std::max(most, 0)))
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "the grid is too large for a 3D texture of this OpenGL (got %u x %u x %u texels, need at "
-                  "most %d each); split the grid",
+                  "most %d along each side); split the grid",
                   plan.size[0], plan.size[1], plan.size[2], most);
 }
 
