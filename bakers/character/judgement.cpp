@@ -346,10 +346,10 @@ std::string number(double value) {
 }
 
 std::string figures(const Judgement& j) {
-  std::string text = "error " + number(j.over_static()) + " of a static bake's error (" +
-                     number(j.errors.by_area.over_static()) + " by area), " + number(j.over_oracle()) +
-                     " of the best static bake's error, on " + std::to_string(j.poses) + " " +
-                     text_of(j.source);
+  std::string text = "error " + number(j.over_static()) + " times the error of a static bake (" +
+                     number(j.errors.by_area.over_static()) + " if weighted by area), " +
+                     number(j.over_oracle()) + " times the error of the best static bake, on " +
+                     std::to_string(j.poses) + " " + text_of(j.source);
   if (!j.clips.empty())
     text += "; worst clip " + j.clips.front().name + " with " + number(j.clips.front().error.over_static());
   return text;
@@ -373,20 +373,21 @@ const JudgedPart* outlying_mesh(const Judgement& j) {
 std::string cause(const Judgement& j) {
   if (j.torn_edges > j.torn_by_clips + torn_limit)
     return "generated poses tear the mesh (" + number(100 * j.torn_edges) +
-           " % of its edges), because the rig is not understood";
+           " % of its edges), because the bake misinterprets the rig";
   if (!j.bones_without_role.empty())
-    return "generated poses do not know what these bones do: " + names_of(j.bones_without_role);
+    return "the bake could not tell the role of these bones, so generated poses may move them wrongly: " +
+           names_of(j.bones_without_role);
   if (const JudgedPart* mesh = outlying_mesh(j))
     return "the mesh " + mesh->name + " has " + number(100 * mesh->share_of_error) + " % of the error";
-  return "the motion differs from the fitted poses, most in " + j.parts.front().name + " (" +
+  return "the measured motion differs from the fitted poses, most in " + j.parts.front().name + " (" +
          number(100 * j.parts.front().share_of_error) + " % of the error)";
 }
 
 std::string cure(const Judgement& j) {
   std::string text = j.source == JudgedPoses::Source::between_frames
                          ? "use --preset production"
-                         : "fit the clips that the game plays (--poses all), or calibrate to recorded poses "
-                           "(--calibrate)";
+                         : "fit the clips that the game plays (--poses all), or fit to poses that you "
+                           "recorded in the game (--calibrate)";
   if (const JudgedPart* mesh = outlying_mesh(j))
     text += ", or leave this mesh out (--without " + mesh->name + ")";
   if (j.torn_edges > j.torn_by_clips + torn_limit || !j.bones_without_role.empty())

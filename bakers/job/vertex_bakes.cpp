@@ -24,11 +24,11 @@ void require_same_character(const CharacterModel& model, const SkinnedMesh& mesh
   for (std::size_t b = 0; is_same && b < mesh.bones.size(); ++b)
     is_same = mesh.bones[b].name == std::string_view(model.bone_names[b]);
   if (!is_same)
-    throw Failure(
-        NOOK_ERROR_BAD_FILE,
-        "the model belongs to another character (got %zu vertices and %zu bones, need %zu and %zu "
-        "in the same order); bake the character first, or choose the meshes of its bake (--mesh, --without)",
-        model.vertex_count(), model.bone_count(), mesh.vertex_count(), mesh.bones.size());
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the model was not baked from this character (the model has %zu vertices and %zu bones; "
+                  "the character has %zu and %zu, or another order or other names of them); bake the "
+                  "character first, or choose the same meshes as in its bake (--mesh, --without)",
+                  model.vertex_count(), model.bone_count(), mesh.vertex_count(), mesh.bones.size());
 }
 
 }  // namespace

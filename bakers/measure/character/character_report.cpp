@@ -107,8 +107,8 @@ void add_peers(Json& row, const ImportedCharacter& character, const Recipe* reci
   const std::vector<Pose> training = recipe ? recipe_poses(character, *recipe) : std::vector<Pose>();
   if (training.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "other methods are fitted to the model's training poses, but the "
-                  "model has no recipe to make these poses again");
+                  "other methods are fitted to the model's training poses, but the model does not store the "
+                  "recipe that is needed to make these poses again; bake the model again");
   const SkinnedMesh& mesh = character.mesh;
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   const AoTargets fitted = trace_character_ao(mesh, training, recipe->settings.rays, recipe->settings.seed,

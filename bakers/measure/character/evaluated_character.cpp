@@ -15,7 +15,7 @@ void require_same(const char* what, std::size_t got, std::size_t needed) {
   if (got != needed)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "the model was not baked from this character (%s: got %zu, need %zu); bake the model "
-                  "again, or choose the meshes of its bake (--mesh, --without)",
+                  "again, or choose the same meshes as in its bake (--mesh, --without)",
                   what, got, needed);
 }
 
@@ -51,8 +51,8 @@ EvaluatedPoses choose_poses(const ImportedCharacter& character, const Recipe* re
     result.poses = recipe_poses(character, *recipe);
     if (result.poses.empty())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "--poses training: the model was fitted only to poses that its host gave, which cannot "
-                    "be made again; use --poses clips");
+                    "--poses training: the model was fitted only to poses that a program passed to the bake, "
+                    "and which it does not store; use --poses clips");
     result.protocol = "training poses";
     thin_out(result.poses, choice.most);
     return result;

@@ -187,8 +187,8 @@ Json composite_rows(platform::Context& context, std::span<const MeasuredRoom> ro
         cameras_at(room, figures, study.views, study.width, study.height, mix_bits(study.truth.seed));
     if (cameras.empty())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "%s has no place where a character can stand or a camera can look from (placed %zu "
-                    "characters); need level ground with 2 m of free height, in metres with +y up",
+                    "%s has too little space for characters and a camera (placed %zu characters); need level "
+                    "ground with 2 m of free height, in metres with +y up",
                     measured.name.c_str(), figures.size());
     std::vector<Capsule> casters;
     for (const Figure& figure : figures) {

@@ -53,9 +53,10 @@ Vec3 uniform_direction(Random& random) {
 constexpr std::size_t most_draws = 1000;
 
 [[noreturn]] void no_place(const char* where) {
-  throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "almost no place %s lies in the grid's box; give the scene that the grid was baked from",
-                where);
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "almost no place %s lies inside the box of the grid; give the scene that the grid was baked from",
+      where);
 }
 
 }  // namespace

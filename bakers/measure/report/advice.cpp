@@ -76,16 +76,16 @@ std::vector<Advice> advise(Subject subject, const Measures& measures) {
 
 Html advice_list(Subject subject, const Measures& measures) {
   const std::vector<Advice> given = advise(subject, measures);
-  if (given.empty()) return Html("<p>No number here is beyond a threshold of the advice.</p>\n");
+  if (given.empty()) return Html("<p>No measured value is beyond a threshold, so there is no advice.</p>\n");
   Html items;
   for (const Advice& advice : given) {
     const double value = measures.value.find(std::string_view(advice.rule->measure))->second;
-    items +=
-        element("li", with_code(advice.words) + Html("<small>") + text(advice.rule->meaning) + Html(": ") +
-                          number(value) +
-                          (advice.rule->bound == Bound::at_least ? Html("; the advice is given from ")
-                                                                 : Html("; the advice is given up to ")) +
-                          number(advice.rule->threshold) + Html("</small>"));
+    items += element(
+        "li", with_code(advice.words) + Html("<small>") + text(advice.rule->meaning) + Html(": ") +
+                  number(value) +
+                  (advice.rule->bound == Bound::at_least ? Html("; this advice appears from this value on: ")
+                                                         : Html("; this advice appears up to this value: ")) +
+                  number(advice.rule->threshold) + Html("</small>"));
   }
   return Html("<ul class=\"advice\">\n") + items + Html("</ul>\n");
 }

@@ -13,7 +13,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr const char* no_report = "its error is in the report of its bake alone, which is missing (--report)";
+constexpr const char* no_report =
+    "its error is stored only in the report of its bake, which is missing (bake it with --report)";
 
 // Reads an entry of JSON. The entry may be missing or have another type, because files come from anywhere.
 const Json& entry(const Json& object, const char* name) {
@@ -68,15 +69,15 @@ std::string first_name(const Json& judged, const char* list) {
 }
 
 std::string body_words(const Json& judged, double over_static) {
-  std::string words = shown(over_static) + " of a static bake's error";
+  std::string words = shown(over_static) + " times the error of a static bake";
   if (const auto oracle = value_of(judged, "over_oracle"))
-    words += ", " + shown(*oracle) + " of the best static bake's";
+    words += ", " + shown(*oracle) + " times the error of the best static bake";
   if (const auto clip = value_of(judged, "worst_clip_over_static"); clip && *clip > 0) {
     const std::string name = first_name(judged, "clips");
     words += "; worst clip " + (name.empty() ? name : name + " ") + "with " + shown(*clip);
   }
   const std::string part = first_name(judged, "parts");
-  return part.empty() ? words : words + "; most of it: " + part;
+  return part.empty() ? words : words + "; most of the error is in: " + part;
 }
 
 // Returns the judgement from a report, or else the figures that the model stores. The stored figures have no
@@ -92,7 +93,7 @@ Json judgement_of(const Json& facts, const Json& report) {
 AssetFigures body_figures(const Json& facts, const Json& report) {
   const Json judged = judgement_of(facts, report);
   const auto over_static = value_of(judged, "over_static");
-  if (!over_static) return unmeasured("its bake stored no error: it is of an earlier version");
+  if (!over_static) return unmeasured("its bake stored no error, because an earlier version of Nook made it");
   AssetFigures figures = measured(*over_static / bake::poor_ratio, body_words(judged, *over_static));
   // A single clip may be worse than a static bake even if all clips together are not.
   if (is(judged, "poor", true) && figures.state == AssetState::good) figures.state = AssetState::poor;
@@ -100,9 +101,9 @@ AssetFigures body_figures(const Json& facts, const Json& report) {
 }
 
 AssetFigures level_figures(const Json& facts, const Json&) {
-  std::string words = "levels are measured by `nook evaluate lods`";
+  std::string words = "its error is not stored; measure it with `nook evaluate lods`";
   if (const auto over_static = value_of(facts, "judged_over_static"))
-    words += "; its full body has " + shown(*over_static) + " of a static bake's error";
+    words += "; the model of its full mesh has " + shown(*over_static) + " times the error of a static bake";
   return unmeasured(words);
 }
 
@@ -132,7 +133,7 @@ AssetFigures probe_figures(const Json& facts, const Json& report) {
                                  (lowest ? ", lowest " + shown(*lowest) : ""));
   }
   if (is(facts, "gloss", false)) {
-    figures.notes = "without amplitudes for gloss: metal may show black patches; bake it again";
+    figures.notes = "has no gloss amplitudes, so metal may show black patches; bake it again";
     if (figures.state > AssetState::poor) figures.state = AssetState::poor;
   }
   return figures;
@@ -144,7 +145,7 @@ AssetFigures grid_figures(const Json& facts, const Json& report) {
   std::string words = "statistical error " + shown(100 * *error) + " % of the light";
   AssetFigures figures = asked && *asked > 0
                              ? measured(*error / *asked, words + ", asked for " + shown(100 * *asked) + " %")
-                             : unmeasured(words + "; what was asked for is not stored");
+                             : unmeasured(words + "; the requested error is not stored");
   if (is(report, "error_reached", false) && figures.state > AssetState::poor)
     figures.state = AssetState::poor;
   return figures;
@@ -162,7 +163,8 @@ AssetFigures material_figures(const Json& facts, const Json&) {
   const auto db = value_of(facts, "recipe_held_out_db");
   const std::string words = text_of(facts, "recipe_verdict_words");
   if (!db)
-    return unmeasured(words.empty() ? "its bake stored no verdict: it is of an earlier version" : words);
+    return unmeasured(words.empty() ? "its bake stored no verdict, because an earlier version of Nook made it"
+                                    : words);
   // Converts dB to a ratio of errors: 6 dB less mean twice the error.
   AssetFigures figures = measured(std::pow(10.0, (bake::material::good_db - *db) / 20), words);
   figures.state = state_of_verdict(text_of(facts, "recipe_verdict"), figures.state);
@@ -173,11 +175,11 @@ AssetFigures synthesis_figures(const Json&, const Json& report) {
   const auto seams = value_of(report, "seam_energy"), tiled = value_of(report, "seam_energy_tiled");
   if (!seams || !tiled) return unmeasured(no_report);
   if (*tiled <= 0) return unmeasured("the material tiles without seams");
-  return measured(*seams / *tiled, "seams at " + shown(*seams / *tiled) + " of plain tiling's");
+  return measured(*seams / *tiled, "seams: " + shown(*seams / *tiled) + " times the seams of plain tiling");
 }
 
 AssetFigures no_figures(const Json&, const Json&) {
-  return unmeasured("its bake measures no error; `nook evaluate` does");
+  return unmeasured("its bake does not measure its error; measure it with `nook evaluate`");
 }
 
 struct Judge {
@@ -232,16 +234,17 @@ std::optional<double> baking_seconds(const Json& report) {
 
 std::vector<LimitRow> asset_limits() {
   using namespace bake::material;
-  return {{"character, bent normals", "held-out visible error over a static bake's (judged.over_static)",
+  return {{"character, bent normals",
+           "visible error on held-out poses, divided by the error of a static bake (judged.over_static)",
            shown(bake::poor_ratio) + ", or one clip that is worse than a static bake"},
-          {"clips", "error of the tables against ray tracing", "what --max-error asked for"},
-          {"light probe", "error of irradiance over its mean; its lowest value; amplitudes for gloss",
+          {"clips", "error of the tables against ray tracing", "the value of --max-error"},
+          {"light probe", "error of irradiance divided by its mean; lowest irradiance; gloss amplitudes",
            shown(advice_limit("irradiance_relative", Bound::at_least)) + "; " +
-               shown(advice_limit("irradiance_minimum", Bound::at_most)) + "; none"},
-          {"probe grid", "statistical error over the light", "what --error asked for"},
-          {"material", "signal to error in held-out views and lights, and its verdict",
+               shown(advice_limit("irradiance_minimum", Bound::at_most)) + "; missing"},
+          {"probe grid", "statistical error divided by the light", "the value of --error"},
+          {"material", "signal-to-error ratio in held-out views and lights, and its verdict",
            shown(good_db) + " dB; bad below " + shown(bad_db) + " dB"},
-          {"synthesis", "seams, as a share of the seams of plain tiling", "1"}};
+          {"synthesis", "seams, divided by the seams of plain tiling", "1"}};
 }
 
 }  // namespace nook::report

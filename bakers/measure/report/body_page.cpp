@@ -42,8 +42,8 @@ std::vector<std::size_t> shown_motion(const ImportedCharacter& character, const 
   std::vector<std::size_t> unseen;
   for (const std::size_t clip : all)
     if (!recipe || std::ranges::find(recipe->clips, clip) == recipe->clips.end()) unseen.push_back(clip);
-  protocol = unseen.empty() ? "clips, and all of them were part of the bake"
-                            : "clips that were not part of the bake";
+  protocol = unseen.empty() ? "poses from clips that were all part of the bake"
+                            : "poses from clips that were not part of the bake";
   return unseen.empty() ? all : unseen;
 }
 
@@ -138,7 +138,7 @@ Html sides(const SkinnedMesh& mesh, const BodyFindings& found) {
 Html named_errors(const std::vector<NamedError>& errors, const BodyFindings& found, Markup what,
                   std::size_t most) {
   std::vector<std::vector<Html>> rows{
-      {Html(what), Html("share of what is seen wrong"), Html("share of the surface"), Html("typical error")}};
+      {Html(what), Html("share of the visible error"), Html("share of the surface"), Html("typical error")}};
   for (const NamedError& e : errors) {
     if (rows.size() > most) break;
     rows.push_back({text(e.name), share_bar(found.all.square > 0 ? e.error.square / found.all.square : 0),
@@ -176,8 +176,8 @@ Html pose_pictures(const SkinnedMesh& mesh, const MeasuredBody& body, const std:
     alternative.append(shown.name).append(": ray traced, from the model, and the difference");
     html += element("h3", text(shown.name)) +
             figure(compare_pose(mesh, body, shown.pose, {}), alternative,
-                   Html("Left ray traced, middle the model, right the difference. Look where the right "
-                        "picture is not violet."));
+                   Html("Left: ray traced. Middle: from the model. Right: the difference. Look where the "
+                        "right picture is not violet."));
   }
   return html;
 }
@@ -190,11 +190,13 @@ Html places(const SkinnedMesh& mesh, const MeasuredBody& body, const BodyFinding
     alternative.append(where)
         .append(": ray traced, from the model, and the difference; typical error ")
         .append(number(place.rms).code());
-    html += element("h3", Html("At ") + text(where)) +
-            figure(compare_pose(mesh, body, place.worst_pose, place.vertices), alternative,
-                   percent(place.share) +
-                       Html(" of what is seen wrong on the whole body; typical error in this pose ") +
-                       number(place.rms) + Html("."));
+    html +=
+        element("h3", Html("At ") + text(where)) +
+        figure(
+            compare_pose(mesh, body, place.worst_pose, place.vertices), alternative,
+            percent(place.share) +
+                Html(" of the visible error of the whole body; typical error of this place in this pose: ") +
+                number(place.rms) + Html("."));
   }
   return html;
 }
@@ -208,7 +210,7 @@ std::vector<NamedPose> turned_poses(const MeasuredBody& body, const BodyFindings
     for (const ClipPoses& clip : body.clips)
       if (clip.name == found.clips[found.clips.size() / 2].name) middle = &clip;
     if (middle)
-      poses.push_back({middle->first + middle->count / 2, middle->name + ", a clip of middle error"});
+      poses.push_back({middle->first + middle->count / 2, middle->name + ", a clip with a median error"});
   }
   return poses;
 }
@@ -222,7 +224,8 @@ Html lead(const CharacterEvaluation& e, const std::string& protocol, std::size_t
             number(std::sqrt(e.static_bake.mse_visible)) + Html("</strong>");
   return html + Html(". Measured in ") + text(std::to_string(pose_count)) + Html(" poses (") +
          text(protocol) + Html(") with ") + text(std::to_string(e.rays)) +
-         Html(" rays for each vertex; their noise is ") + number(std::sqrt(e.noise_floor_mse)) + Html(".");
+         Html(" rays for each vertex; the noise of these rays is ") + number(std::sqrt(e.noise_floor_mse)) +
+         Html(".");
 }
 
 Html warnings_of(const ImportedCharacter& character) {
@@ -266,21 +269,21 @@ PageParts body_parts(const BakedCharacter& baked, const BodySettings& settings,
   PageParts parts;
   parts.lead = lead(evaluation, protocol, body.poses.size(), !baked.model.static_ao.empty());
   parts.advice = advice_list(Subject::body, measures);
-  parts.sections =
-      fill("body.html",
-           {{"scale", error_scale(double(error_end), "error of AO, which has no unit")},
-            {"sides", drawn_sides},
-            {"parts", named_errors(found.parts, found, "part", part_names().size())},
-            {"joints", named_errors(found.joints, found, "joint", listed_joints)},
-            {"clips_title", has_clips ? Html("Worst clips") : Html("Poses")},
-            {"clips_text",
-             has_clips ? Html("Errors over what is visible, by area. The pictures show the worst pose of "
-                              "each of the worst clips, from the side that sees most of the error.")
-                       : Html("The file has no clip that shows motion; these are poses of the bake.")},
-            {"clips", clip_table(found)},
-            {"clip_pictures", drawn_poses},
-            {"places", drawn_places.empty() ? Html("<p>No error is visible.</p>\n") : drawn_places},
-            {"turn", turn.section}});
+  parts.sections = fill(
+      "body.html",
+      {{"scale", error_scale(double(error_end), "error of AO, which has no unit")},
+       {"sides", drawn_sides},
+       {"parts", named_errors(found.parts, found, "part", part_names().size())},
+       {"joints", named_errors(found.joints, found, "joint", listed_joints)},
+       {"clips_title", has_clips ? Html("Worst clips") : Html("Poses")},
+       {"clips_text",
+        has_clips ? Html("Errors are weighted by area, over the visible surface. The pictures show the worst "
+                         "pose of each of the worst clips, from the side that sees most of the error.")
+                  : Html("The file has no clip that shows motion, so these are poses from the bake.")},
+       {"clips", clip_table(found)},
+       {"clip_pictures", drawn_poses},
+       {"places", drawn_places.empty() ? Html("<p>No error is visible.</p>\n") : drawn_places},
+       {"turn", turn.section}});
   parts.sections += warnings_of(baked.character);
   parts.scripts = turn.scripts;
   return parts;

@@ -75,21 +75,23 @@ PageParts frame_parts(const Recording& recording) {
   PageParts parts;
   parts.lead = text(std::to_string(width)) + Html(" x ") + text(std::to_string(height)) +
                Html(" pixels, drawn by ") + text(std::string_view(recording.renderer)) +
-               Html(". Remark of who recorded it: ") +
+               Html(". Note of the person who recorded it: ") +
                (recording.note.empty() ? Html("none")
                                        : Html("“") + text(std::string_view(recording.note)) + Html("”")) +
                Html(".");
   Html pictures;
   if (!recording.ao.empty())
-    pictures += figure(page_picture(measure::ao_picture(recording.ao, width, height)),
-                       "The ambient occlusion that the pass drew",
-                       Html("The AO that the pass drew on the machine that recorded: black 0, white 1."));
-  pictures += figure(
-      page_picture(measure::depth_picture(view)), "The depth of the frame, near bright and far dark",
-      Html("Depth: near is bright, far dark, no surface blue. A wrong projection or clip range shows here."));
+    pictures += figure(
+        page_picture(measure::ao_picture(recording.ao, width, height)),
+        "The ambient occlusion that the pass drew",
+        Html("The AO that the pass drew on the machine that recorded the frame. Black is 0, white is 1."));
+  pictures +=
+      figure(page_picture(measure::depth_picture(view)), "The depth of the frame, near bright and far dark",
+             Html("Depth: near is bright, far is dark, and pixels without a surface are blue. A wrong "
+                  "projection or clip range shows here."));
   pictures += figure(page_picture(measure::normal_picture(view)), "The normals of the frame as colours",
                      Html("Normals in view space: red to the right, green up, blue towards the viewer. A "
-                          "floor must be of one colour, mostly green."));
+                          "floor must have a single colour, mostly green."));
   parts.sections = Html("<section id=\"frame\"><h2>The frame</h2>\n") + pictures +
                    Html(
                        "<p><code>nook evaluate nnao --frame</code> draws the frame again, on OpenGL, and "

@@ -72,8 +72,9 @@ void add_raw(PageParts& parts, Measures& measures, std::span<const std::byte> by
       figure(measure::difference_sheet(raw, material),
              "The raw material, the decoded one and three times their difference, for a view from above and "
              "a tilted one; below them the visibility",
-             Html("From the left: ray traced, decoded, three times the difference; above a view near the "
-                  "normal, below a tilted one. Black in the third column means no difference.")) +
+             Html("From the left: ray traced, decoded, three times the difference. The upper row shows a "
+                  "view near the normal, the lower row a tilted view. Black in the third column means no "
+                  "difference.")) +
       table(rows) + Html("</section>\n");
 }
 
@@ -92,9 +93,9 @@ PageParts material_parts(std::span<const std::byte> bytes, const nook::material:
       figure(
           sheet.picture,
           "The tile twice each way, for three views from left to right and three lights from top to bottom",
-          Html("From left to right the viewer sinks from above to the horizon of x; from top to bottom the "
-               "light sinks from above to the horizon of y. Look for seams at the middle of each panel and "
-               "for patches that change suddenly.")) +
+          Html("From left to right, the view tilts from above towards the horizon along x. From top to "
+               "bottom, the light tilts from above towards the horizon along y. Look for seams at the middle "
+               "of each panel, and for patches that change suddenly.")) +
       Html("</section>\n");
   if (raw) add_raw(parts, measures, bytes, material, *raw);
   parts.lead = text(std::to_string(tables.btf.width)) + Html(" x ") +
@@ -103,7 +104,7 @@ PageParts material_parts(std::span<const std::byte> bytes, const nook::material:
                byte_count(double(nook::material::table_bytes(tables))) + Html(" of GPU memory.");
   if (measures.value.contains("se_db"))
     parts.lead += Html(" Against the raw material it has <strong>") + number(measures.value["se_db"]) +
-                  Html("&nbsp;dB</strong>: the signal over the error.");
+                  Html("&nbsp;dB</strong>, the ratio of the signal to the error.");
   parts.advice = advice_list(Subject::material, measures);
   return parts;
 }

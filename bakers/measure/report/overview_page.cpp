@@ -55,7 +55,8 @@ Html lead_of(const Sums& sums) {
 Html changes_of(const Overview& overview, const Sums& sums) {
   if (overview.before.empty())
     return Html(
-        "This page has no earlier page to compare with. The next page at its place says what changed.");
+        "There is no earlier page to compare with. The next page that replaces this one will list what "
+        "changed.");
   Html words;
   for (std::size_t i = 1; i < asset_change_count; ++i) {
     if (sums.changes[i] == 0) continue;
@@ -67,7 +68,7 @@ Html changes_of(const Overview& overview, const Sums& sums) {
 }
 
 Html limits_of(const std::vector<LimitRow>& limits) {
-  std::vector<std::vector<Html>> rows{{Html("kind"), Html("what is visible"), Html("limit of poor")}};
+  std::vector<std::vector<Html>> rows{{Html("kind"), Html("measured value"), Html("poor above")}};
   for (const LimitRow& limit : limits)
     rows.push_back({text(limit.kind), text(limit.figure), text(limit.limit)});
   return table(rows);

@@ -62,7 +62,7 @@ Html licence_list(const PageSource& source) {
   }
   Html list = items.empty() ? Html("<p>No model is shown.</p>\n") : element("ul", items);
   if (!source.licence.empty())
-    list += element("p", Html("Stated for all of them when the page was made: ") + text(source.licence));
+    list += element("p", Html("Licence note for all of them, given with --licence: ") + text(source.licence));
   return list;
 }
 
@@ -108,8 +108,8 @@ Html error_scale(double end, Markup unit) {
          Html(" and more\"><span class=\"ramp\" style=\"background:linear-gradient(90deg,") + ramp +
          Html(")\"></span><span class=\"ticks\">") + labels + Html("</span><small>") + Html(unit) +
          Html(
-             "; the colours are viridis: they grow evenly lighter, and colour-blind readers can tell them "
-             "apart</small></div>\n");
+             "; the colours are the viridis map, which grows evenly lighter, so that colour-blind readers "
+             "can tell the values apart</small></div>\n");
 }
 
 Html share_bar(double share) {

@@ -100,11 +100,11 @@ Html layers(const Probes& probes, float exposure) {
         "layer " + std::to_string(layer + 1) + " of " + std::to_string(probes.grid.counts[1]);
     std::string alternative = "White balls in the light of the probes of ";
     alternative.append(where).append(", seen from +z");
-    html +=
-        figure(layer_picture(probes, layer, exposure), alternative,
-               text(where) + Html(", at a height of ") + number(double(height)) +
-                   Html(" m: x to the right, z down, each ball lit by its probe and seen from +z. Look for "
-                        "balls that are black or differ from their neighbours without a wall between."));
+    html += figure(layer_picture(probes, layer, exposure), alternative,
+                   text(where) + Html(", at a height of ") + number(double(height)) +
+                       Html(" m: x is to the right and z is down. Each ball is lit by its probe and seen "
+                            "from +z. Look for balls that are black, or that differ from their neighbours "
+                            "although no wall is between them."));
   }
   return html;
 }
@@ -140,15 +140,16 @@ void add_map(PageParts& parts, Measures& measures, const Probes& probes, const E
   std::vector<std::vector<Html>> rows{{Html("against the map"), Html("value")}};
   for (const auto& item : errors.items())
     if (item.value().is_number()) rows.push_back({text(item.key()), number(item.value().get<double>())});
-  parts.sections += Html("<section id=\"map\"><h2>Beside the map</h2>\n") +
-                    figure(bake::probe::map_picture(map, probes.basis, probes.of(0), 300),
-                           "The map, the probe's radiance, its irradiance, and the error of its radiance, "
-                           "each over all directions",
-                           Html("From the left: the map; what the probe has of it; the light on a white "
-                                "surface that faces each direction; the error of the second picture, "
-                                "violet none, yellow as large as the map's mean and more. A probe is smooth "
-                                "by design: look at the third picture, which diffuse surfaces use.")) +
-                    table(rows) + Html("</section>\n");
+  parts.sections +=
+      Html("<section id=\"map\"><h2>Beside the map</h2>\n") +
+      figure(bake::probe::map_picture(map, probes.basis, probes.of(0), 300),
+             "The map, the probe's radiance, its irradiance, and the error of its radiance, "
+             "each over all directions",
+             Html("From the left: the map; the radiance that the probe stores; the light on a white surface "
+                  "that faces each direction; the error of the second picture, where violet is no error and "
+                  "yellow is an error as large as the map's mean or larger. A probe is smooth by design, so "
+                  "look at the third picture, which is what diffuse surfaces use.")) +
+      table(rows) + Html("</section>\n");
 }
 
 }  // namespace
@@ -169,8 +170,8 @@ PageParts probe_parts(const Probes& probes, const Environment* map) {
   parts.sections += Html("<section id=\"balls\"><h2>The light of the probes</h2>\n") +
                     layers(probes, exposure) + Html("</section>\n");
   parts.lead = is_grid ? text(std::to_string(probes.grid.size())) +
-                             Html(" probes, whose light is shown on white balls at one exposure for all.")
-                       : Html("One probe, whose light is shown on a white ball.");
+                             Html(" probes. Their light is shown on white balls, all with the same exposure.")
+                       : Html("One probe. Its light is shown on a white ball.");
   if (map && measures.value.contains("irradiance_relative"))
     parts.lead += Html(" The light on surfaces is off by <strong>") +
                   percent(measures.value["irradiance_relative"]) + Html("</strong> of the map's mean.");

@@ -92,8 +92,9 @@ PageParts transfer_parts(std::size_t bytes, const Transfer& baked, const Surface
                Html(" lobes at each.");
   if (baked.paper.is_used()) {
     parts.sections = Html(
-        "<section id=\"shape\"><h2>The shape</h2>\n<p>The file has the paper's form, whose numbers belong to "
-        "one material; <code>nook evaluate transfer --images</code> draws it under a map.</p>\n</section>\n");
+        "<section id=\"shape\"><h2>The shape</h2>\n<p>The file has the paper's form, which works only with "
+        "the material that it was baked for; <code>nook evaluate transfer --images</code> draws it under a "
+        "map.</p>\n</section>\n");
   } else {
     const std::vector<float> open = mean_shares(baked, mesh), traced = traced_openness(mesh);
     double sum = 0, square = 0;
@@ -105,12 +106,11 @@ PageParts transfer_parts(std::size_t bytes, const Transfer& baked, const Surface
     parts.lead += Html(" Its openness, the mean over the lobes, differs from ray tracing by <strong>") +
                   number(std::sqrt(square / double(open.size()))) +
                   Html("</strong> of the way from dark (0) to open (1).");
-    parts.sections =
-        Html(
-            "<section id=\"shape\"><h2>The shape</h2>\n<p>The share of an even sky that reaches each vertex: "
-            "black none, white all. Under a real sky the file has this share for each lobe by "
-            "itself.</p>\n<div class=\"row\">") +
-        pictures(mesh, open, traced) + Html("</div></section>\n");
+    parts.sections = Html(
+                         "<section id=\"shape\"><h2>The shape</h2>\n<p>The share of a uniform sky's light "
+                         "that reaches each vertex: black is none, white is all. The file stores such a "
+                         "share for each lobe separately.</p>\n<div class=\"row\">") +
+                     pictures(mesh, open, traced) + Html("</div></section>\n");
   }
   parts.advice = advice_list(Subject::transfer, measures);
   return parts;

@@ -119,6 +119,6 @@ TEST_CASE("faults of a job of bent normals come before it starts, with their cau
     desc.model = other.data();
     desc.model_size = other.size();
     CHECK(start_result(character, desc) == NOOK_ERROR_BAD_FILE);
-    CHECK(message_has("another character"));
+    CHECK(message_has("was not baked from this character"));
   }
 }

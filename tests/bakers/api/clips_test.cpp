@@ -128,7 +128,7 @@ TEST_CASE("faults of a job of clips come before it starts, with their cause") {
     desc.model = plain.data();
     desc.model_size = plain.size();
     CHECK(start_result(character, desc) == NOOK_ERROR_BAD_FILE);
-    CHECK(message_has("another character"));
+    CHECK(message_has("was not baked from this character"));
   }
   {
     INFO("a character without clips");

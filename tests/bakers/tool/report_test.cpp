@@ -77,7 +77,7 @@ TEST_CASE("the page of a character holds its pictures, its view and its advice")
   // Eight sides, three clips, and up to four places.
   CHECK(count_of(page, "<img ") >= 12);
   for (const char* words :
-       {"turn-data", "draft bake", "seen none of the file", "not stated", "CC0", "viridis", "curl"}) {
+       {"turn-data", "draft bake", "used none of the file", "not stated", "CC0", "viridis", "curl"}) {
     INFO(words);
     CHECK(page.find(words) != std::string::npos);
   }

@@ -44,8 +44,8 @@ TEST_CASE("advice fills in its numbers and names, and says nothing of what was n
   measures.name["clip"] = "<b>";
   const std::vector<Advice> given = advise(Subject::body, measures);
   REQUIRE(given.size() == 2);
-  CHECK(given[0].words.find("The hands hold 40 % of what is seen wrong.") == 0);
-  CHECK(given[1].words.find("The clip <b> is 2.5 times") == 0);
+  CHECK(given[0].words.find("40 % of the visible error is on the hands.") == 0);
+  CHECK(given[1].words.find("The error in the clip <b> is 2.5 times") == 0);
   const std::string list = advice_list(Subject::body, measures).code();
   CHECK(list.find("&lt;b&gt;") != std::string::npos);
   CHECK(list.find("<code>--clips</code>") != std::string::npos);

@@ -34,10 +34,12 @@ TEST_CASE("a character is judged by its share of a static bake's error") {
   const AssetFigures stored = asset_figures(body, {});
   CHECK(stored.state == AssetState::good);
   CHECK(*stored.over_limit == Approx(0.8));  // 0.25 is poor
-  CHECK(stored.figure == "0.2 of a static bake's error, 0.3 of the best static bake's; worst clip with 0.4");
+  CHECK(stored.figure ==
+        "0.2 times the error of a static bake, 0.3 times the error of the best static bake; worst clip with "
+        "0.4");
   const AssetFigures reported = asset_figures(body, judged(0.3, true));
   CHECK(reported.state == AssetState::poor);
-  CHECK(reported.figure.find("worst clip Run with 1.2; most of it: head") != std::string::npos);
+  CHECK(reported.figure.find("worst clip Run with 1.2; most of the error is in: head") != std::string::npos);
   CHECK(asset_figures(body, judged(0.6, true)).state == AssetState::bad);
   // One clip is worse than a static bake, all together are not.
   CHECK(asset_figures(body, judged(0.2, true)).state == AssetState::poor);
@@ -48,7 +50,7 @@ TEST_CASE("levels of detail have no error of their own") {
   const Json level = with(body, "bake_kind", "lod");
   CHECK(asset_kind(level) == "level of detail");
   CHECK(asset_figures(level, {}).state == AssetState::unmeasured);
-  CHECK(asset_figures(level, {}).figure.find("0.2 of a static bake's error") != std::string::npos);
+  CHECK(asset_figures(level, {}).figure.find("0.2 times the error of a static bake") != std::string::npos);
   CHECK(asset_kind(with(body, "bake_kind", "bent")) == "bent normals");
 }
 

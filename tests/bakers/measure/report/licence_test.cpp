@@ -34,8 +34,8 @@ TEST_CASE("licences are those that a file states, and none is made up") {
   const std::string page = report::page_of(source, {});
   CHECK(page.find("2020 A; licence: CC-BY-4.0; author: &lt;B&gt;") != std::string::npos);
   CHECK(page.find("copyright: not stated; licence: not stated") != std::string::npos);
-  CHECK(page.find("Stated for all of them") == std::string::npos);
+  CHECK(page.find("Licence note for all of them") == std::string::npos);
   source.licence = "CC0";
-  CHECK(report::page_of(source, {}).find("Stated for all of them when the page was made: CC0") !=
+  CHECK(report::page_of(source, {}).find("Licence note for all of them, given with --licence: CC0") !=
         std::string::npos);
 }

@@ -53,8 +53,8 @@ std::vector<Asset> made_up_assets(std::size_t count) {
     asset.has_page = i % 100 == 0;
     asset.source = asset.name + ".glb";
     asset.figure =
-        "0.318 of a static bake's error, 0.43 of the best static bake's; worst clip Survey with 0.433; most "
-        "of it: head and neck";
+        "0.318 times the error of a static bake, 0.43 times the error of the best static bake; worst clip "
+        "Survey with 0.433; most of the error is in: head and neck";
     if (asset.state != AssetState::unmeasured) asset.over_limit = over_limit;
   }
   return assets;
