@@ -141,8 +141,8 @@ nook_result nook_bake_desc_init(uint32_t type, void* desc, size_t size, uint32_t
     default:
       return api::enter("nook_bake_desc_init", [&] {
         throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "type is unknown (got %u, need a NOOK_DESC_ value of this library); call the init "
-                      "function of your descriptor",
+                      "type is unknown (got %u, need a NOOK_DESC_ constant that this library knows); call "
+                      "the init function of your descriptor",
                       type);
       });
   }

@@ -83,7 +83,8 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc, const MeshSele
   const int sources = int(desc.path != nullptr) + int(desc.bytes != nullptr) + int(has_arrays);
   if (sources != 1)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "desc has %s of desc.path, desc.bytes and arrays such as desc.positions; give exactly one",
+                  "desc contains %s of desc.path, desc.bytes and arrays such as desc.positions; set exactly "
+                  "one of them",
                   sources == 0 ? "none" : "more than one");
   if (has_arrays && !(meshes.only.empty() && meshes.without.empty()))
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,

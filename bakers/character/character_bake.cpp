@@ -47,8 +47,10 @@ void check(const SkinnedMesh& mesh, std::span<const Pose> poses, const BakeSetti
                     p, poses[p].size(), mesh.bones.size());
     for (const Mat3x4& m : poses[p])
       if (!is_pose_matrix(m))
-        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "pose %zu has a matrix that is not finite, or goes beyond 1e9 m or a scale of 1e6", p);
+        throw Failure(
+            NOOK_ERROR_INVALID_ARGUMENT,
+            "pose %zu has a matrix that is not finite, or that moves beyond 1e9 m or scales by more than 1e6",
+            p);
   }
 }
 

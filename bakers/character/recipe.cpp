@@ -203,8 +203,8 @@ bool makes_same_poses(const ImportedCharacter& character, const Recipe& recipe) 
 std::vector<Pose> recipe_poses(const ImportedCharacter& character, const Recipe& recipe) {
   if (!makes_same_poses(character, recipe) && recipe.auto_poses + recipe.variant_poses > 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "this version cannot make the model's training poses again (got "
-                  "generation %d, need %d); bake the model again",
+                  "this version of Nook generates other training poses than the version that baked the model "
+                  "(got generation %d, need %d); bake the model again",
                   recipe.generation, pose_generation);
   std::vector<Pose> poses;
   const std::vector<float> area = vertex_areas(character.mesh, character.mesh.position);

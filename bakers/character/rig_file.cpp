@@ -55,7 +55,7 @@ Side side_of(const std::string& bone, const Json& value) {
 
 std::int32_t limb_of(const std::string& bone, const Json& value) {
   if (!value.is_number_integer() || value < -1 || value > most_limbs)
-    refuse("bone \"" + bone + "\": limb is not the number of a limb (got " + value.dump() +
+    refuse("bone \"" + bone + "\": limb is not a valid limb number (got " + value.dump() +
            ", need -1 for none, or 0 to " + std::to_string(most_limbs) + ")");
   return value.get<std::int32_t>();
 }

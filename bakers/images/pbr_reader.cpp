@@ -149,7 +149,7 @@ PbrFiles arrange_pbr_names(std::span<const std::string> names) {
     std::optional<std::size_t>& place = places.of(*name);
     if (place)
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "%.150s and %.150s are the same map by their names; remove one of them",
+                    "%.150s and %.150s have names of the same kind of map; remove or rename one of them",
                     names[*place].c_str(), names[i].c_str());
     place = i;
   }
@@ -215,9 +215,10 @@ MapImage read_image(const fs::path& path, bool needs_colour) {
   std::error_code unknown;  // on an error, file_size returns the maximum value
   check_image_size(path.c_str(), spec.width, spec.height, most_texels, fs::file_size(path, unknown));
   if (spec.width != spec.height)
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%.250s has %d x %d texels, need as many columns as rows; crop it to one tile",
-                  path.c_str(), spec.width, spec.height);
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "%.250s has %d x %d texels, but must have as many columns as rows; crop it to one square tile",
+        path.c_str(), spec.width, spec.height);
   if (needs_colour && spec.channels < 3)
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s has %d channels, need 3", path.c_str(), spec.channels);
   MapImage image{path,

@@ -111,8 +111,8 @@ void put_moved_lights_back(std::vector<Pair>& pairs) {
   const Angles light = std::next(lights.begin(), std::ptrdiff_t(first / views.size()))->first;
   const Angles view = std::next(views.begin(), std::ptrdiff_t(first % views.size()))->first;
   throw Failure(NOOK_ERROR_BAD_FILE,
-                "there is no image for tl %g, pl %g, tv %g, pv %g (%zu of %zu are missing); you need an "
-                "image for each light with each view",
+                "there is no image for tl %g, pl %g, tv %g, pv %g (%zu of %zu images are missing); you need "
+                "one image for each pair of a light and a view direction",
                 double(light.first), double(light.second), double(view.first), double(view.second), missing,
                 grid.image.size());
 }

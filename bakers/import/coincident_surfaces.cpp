@@ -470,9 +470,9 @@ std::string sentence_of(const tinygltf::Model& model, const CoincidentPair& pair
     cure = second.empty() ? "give it a unique name and leave it out with --without"
                           : "leave it out: --without \"" + second + "\"";
   }
-  return what + " lie on each other over " + cover +
-         " of their surfaces, so that each darkens the other; if one is a level of detail, a spare part or a "
-         "copy, " +
+  return what + " coincide on " + cover +
+         " of their surfaces, so that each darkens the other; if one of them is a level of detail, a spare "
+         "part or a copy, " +
          cure;
 }
 
@@ -491,9 +491,8 @@ std::string sentence_of(const tinygltf::Model& model, const OutlineHull& hull) {
   }
   around = hull.inner_node == hull.node ? "primitive " + std::to_string(hull.inner_primitive)
                                         : "node \"" + node_label(model, hull.inner_node) + "\"";
-  return what + " lies close around " + percent + " of " + around +
-         " with its faces turned inwards, like the hull of a toon "
-         "outline, and darkens all that lies inside; " +
+  return what + " closely surrounds " + percent + " of " + around +
+         ", with its faces turned inwards, like the hull of a toon outline, and darkens everything inside; " +
          cure;
 }
 
@@ -524,13 +523,13 @@ std::vector<OutlineHull> warn_of_close_surfaces(const tinygltf::Model& model, co
     warnings.push_back(sentence_of(model, pairs[i]));
   if (pairs.size() > most)
     warnings.push_back(std::to_string(pairs.size() - most) +
-                       (pairs.size() == most + 1 ? " more pair of nodes lies" : " more pairs of nodes lie") +
-                       " on each other; `nook inspect` lists the nodes of a file");
+                       (pairs.size() == most + 1 ? " more pair of nodes has" : " more pairs of nodes have") +
+                       " surfaces that coincide; `nook inspect` lists the nodes of a file");
   for (std::size_t i = 0; i < std::min(close.hulls.size(), most); ++i)
     warnings.push_back(sentence_of(model, close.hulls[i]));
   if (close.hulls.size() > most)
     warnings.push_back(std::to_string(close.hulls.size() - most) +
-                       (close.hulls.size() == most + 1 ? " more hull lies" : " more hulls lie") +
+                       (close.hulls.size() == most + 1 ? " more hull was found" : " more hulls were found") +
                        " around other surfaces; `nook inspect` lists the nodes of a file");
   return std::move(close.hulls);
 }

@@ -106,7 +106,8 @@ class Decompressed {
       const int id = whole_number(attributes, name.c_str(), what);
       const draco::PointAttribute* attribute = mesh->GetAttributeByUniqueId(std::uint32_t(id));
       if (!attribute)
-        refuse(what, name + " has identifier " + std::to_string(id) + ", which does not occur in the data");
+        refuse(what,
+               name + " refers to identifier " + std::to_string(id) + ", which does not exist in the data");
       accessor->second = add_attribute(*mesh, *attribute, accessor->second, what + "." + name);
     }
   }
@@ -172,7 +173,7 @@ class Decompressed {
     if (components < 1 || components > 4 ||
         tinygltf::GetNumComponentsInType(std::uint32_t(accessor.type)) != components)
       refuse(what, "its data have " + std::to_string(components) +
-                       " components per element, but its accessor has another number");
+                       " components per element, but its accessor has a different number");
     accessor.count = mesh.num_points();
     switch (accessor.componentType) {
       case TINYGLTF_COMPONENT_TYPE_BYTE:

@@ -379,7 +379,9 @@ bool LinkedFileReader::leaves_folder(const std::string& name) const {
 bool LinkedFileReader::may_open(const std::string& path) {
   if (is_room(path)) return true;
   if (folder_.empty()) {
-    fault_ = "external files are not read from memory; put the buffers into the file";
+    fault_ =
+        "it refers to external files, which cannot be read because the file itself was given as bytes in "
+        "memory; put the buffers into the file";
     return false;
   }
   const std::string name = name_of(path);
@@ -388,20 +390,20 @@ bool LinkedFileReader::may_open(const std::string& path) {
   if (name.find('\0') != std::string::npos)
     return refuse(name.c_str(), "a name with a NUL character; rename it");
   if (linked_ == LinkedFiles::folder && climbs(name))
-    return refuse(
-        name,
-        "which is outside of its own folder; copy it there, or allow files outside (--allow-outside-files)");
+    return refuse(name,
+                  "which is outside the folder of this file; copy it into the folder, or allow files outside "
+                  "(--allow-outside-files)");
   std::error_code error;
   const std::filesystem::path file = std::filesystem::path(folder_) / name;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) return refuse(name, "which does not exist");
   if (linked_ == LinkedFiles::folder && leaves_folder(name))
     return refuse(name,
-                  "a link that leads outside of its own folder; copy the file there, "
+                  "a link that leads outside the folder of this file; copy the linked file into the folder, "
                   "or allow files outside (--allow-outside-files)");
   if (!std::filesystem::is_regular_file(status)) return refuse(name, "which is not a regular file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
-  if (error || size > left_) return refuse(name, "and its linked files have more than 2 GiB in all");
+  if (error || size > left_) return refuse(name, "and together, the linked files have more than 2 GiB");
   return true;
 }
 

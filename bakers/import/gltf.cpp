@@ -140,14 +140,14 @@ void warn_of_uneven_bones(ImportedCharacter& character) {
   if (unchecked > 0)
     character.warnings.push_back(
         std::to_string(unchecked) +
-        " clips were not checked for shear and uneven scale, because the file has so many");
+        " clips were not checked for shear and uneven scale, because the file has too many clips");
   for (std::size_t b = 0; b < worst.size(); ++b) {
     if (worst[b] <= tolerance) continue;
     char percent[32];
     std::snprintf(percent, sizeof percent, "%.2g", 100 * worst[b]);
     character.warnings.push_back("bone \"" + character.mesh.bones[b].name +
-                                 "\" is sheared or unevenly scaled by its default pose or clips (" + percent +
-                                 " %); its nearest rotation and scale are used");
+                                 "\" is sheared or scaled unevenly by the default pose or a clip, by up to " +
+                                 percent + " %; the nearest rotation with one scale is used");
   }
 }
 
@@ -162,7 +162,7 @@ void warn_of_size(const SkinnedMesh& mesh, std::vector<std::string>& warnings) {
   const float diagonal = length(high - low);
   if (diagonal > 0.05f && diagonal < 20) return;
   char text[120];
-  std::snprintf(text, sizeof text, "the rest pose is %.3g m across; the file may not be in metres",
+  std::snprintf(text, sizeof text, "the rest pose is %.3g m across; the unit of the file may not be metres",
                 static_cast<double>(diagonal));
   warnings.push_back(text);
 }

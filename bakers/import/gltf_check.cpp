@@ -123,7 +123,7 @@ void look_at_skins(const tinygltf::Model& model, std::vector<std::string>& warni
     }
   }
   warn(warnings, last_row,
-       "skins have inverse bind matrices whose last row is not 0 0 0 1; the row was not used");
+       "skins have inverse bind matrices whose last row is not 0 0 0 1; the row was ignored");
 }
 
 void look_at_nodes(const tinygltf::Model& model, std::vector<std::string>& warnings) {
@@ -138,7 +138,7 @@ void look_at_nodes(const tinygltf::Model& model, std::vector<std::string>& warni
     // Exporters write six digits or more.
     if (!node.rotation.empty() && !(std::abs(square - 1) < 1e-3)) not_unit.add(name_of_node(model, n));
   }
-  warn(warnings, last_row, "nodes have a matrix whose last row is not 0 0 0 1; the row was not used");
+  warn(warnings, last_row, "nodes have a matrix whose last row is not 0 0 0 1; the row was ignored");
   warn(warnings, both,
        "nodes have a matrix as well as a translation, rotation or scale; the matrix was used");
   warn(warnings, not_unit, "nodes have a rotation that is not a unit quaternion; it was normalised");
@@ -227,7 +227,7 @@ void look_at_primitives(const tinygltf::Model& model, std::vector<std::string>& 
        "index lists contain the value that restarts primitives, which glTF "
        "forbids; it was read as the index of a vertex");
   warn(warnings, bounds,
-       "accessors of positions have a min and max that do not match their values; min and max were not used");
+       "accessors of positions have a min and max that do not match their values; min and max were ignored");
 }
 
 }  // namespace

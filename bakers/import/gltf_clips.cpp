@@ -58,7 +58,8 @@ void add_warnings(const KeyRepairs& repairs, std::vector<std::string>& warnings)
   const auto warn = [&](std::size_t count, const char* what) {
     if (count > 0) warnings.push_back(std::to_string(count) + what);
   };
-  warn(repairs.equal_times, " animation channels have equal key times; the last key of each time is used");
+  warn(repairs.equal_times,
+       " animation channels have several keys at the same time; the last key of each time is used");
   warn(repairs.not_unit,
        " animation channels have rotations that are not unit quaternions; they were normalised");
   warn(repairs.twice,

@@ -73,7 +73,7 @@ void add_mesh(const tinygltf::Model& model, std::size_t node, NodeState state,
       if (number >= 0)
         ++number;
       else if (character)
-        row.state = "in as a scene, but follows no joint of the character";
+        row.state = "in if baked as a scene; a character bake leaves it out, because it follows no joint";
     }
     out.meshes.push_back(row);
   }

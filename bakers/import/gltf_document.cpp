@@ -27,8 +27,8 @@ std::uint32_t load_u32(std::span<const std::byte> bytes, std::size_t at) {
 // glTF 2.0, section 4.4: a 12-byte header, then the JSON chunk.
 std::span<const std::byte> json_of_binary(std::span<const std::byte> bytes) {
   if (bytes.size() < 20)
-    throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (got %zu bytes, need 20 for its headers)",
-                  bytes.size());
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "truncated .glb file (got %zu bytes, need at least 20 bytes of headers)", bytes.size());
   const std::uint32_t version = load_u32(bytes, 4);
   const std::uint32_t total = load_u32(bytes, 8);
   const std::uint32_t json = load_u32(bytes, 12);
@@ -37,11 +37,11 @@ std::span<const std::byte> json_of_binary(std::span<const std::byte> bytes) {
                   "the binary header says that the file has glTF version %u (need 2); export it as glTF 2.0",
                   version);
   if (total > bytes.size() || total < 20)
-    throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb (got %zu bytes, its header says %u)", bytes.size(),
-                  total);
+    throw Failure(NOOK_ERROR_BAD_FILE, "truncated .glb file (got %zu bytes, but its header says %u)",
+                  bytes.size(), total);
   if (json > total - 20)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "truncated .glb (its JSON chunk should have %u bytes, but only %u are left)", json,
+                  "truncated .glb file (its JSON chunk should have %u bytes, but only %u are left)", json,
                   total - 20);
   return bytes.subspan(20, json);
 }

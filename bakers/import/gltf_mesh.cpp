@@ -275,7 +275,7 @@ void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings
   if (repairs.with_targets > 0)
     warnings.push_back(
         std::to_string(repairs.with_targets) +
-        " meshes have morph targets; AO follows the bones, but not changes of the morph weights");
+        " meshes have morph targets; AO follows the bones, but ignores changes of the morph weights");
   if (repairs.morphed > 0)
     warnings.push_back(std::to_string(repairs.morphed) +
                        " meshes have morph targets with default weights; the rest pose includes them");

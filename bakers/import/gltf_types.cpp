@@ -148,8 +148,8 @@ void require_allowed_type(const tinygltf::Model& model, int index, AccessorUse u
   const Allowed& row = row_of(use);
   const bool only_undeclared = (bit_of(accessor.componentType, accessor.normalized) & row.quantised) != 0 &&
                                accessor.type == row.element;
-  throw Failure(NOOK_ERROR_BAD_FILE, "%s (accessor %d) is %s (need %s of %s)%s", what.c_str(), index,
-                type_name(accessor).c_str(), element_name(row.element),
+  throw Failure(NOOK_ERROR_BAD_FILE, "%s (accessor %d) contains %s (need %s; allowed component types: %s)%s",
+                what.c_str(), index, type_name(accessor).c_str(), element_name(row.element),
                 component_names(row.components).c_str(),
                 only_undeclared ? "; list KHR_mesh_quantization in extensionsUsed"
                                 : "; export the file again with an exporter that follows glTF 2.0");

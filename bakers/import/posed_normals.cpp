@@ -25,7 +25,7 @@ Mat3x4 blended(const SkinWeights& weights, const Pose& pose) {
 std::span<const std::array<std::uint32_t, 3>> posed_triangles(
     const SkinnedMesh& mesh, const Pose& pose, std::vector<std::array<std::uint32_t, 3>>& storage) {
   if (pose.size() != mesh.bones.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "wrong number of bone matrices (got %zu, need %zu)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of bone matrices is wrong (got %zu, need %zu)",
                   pose.size(), mesh.bones.size());
   if (std::none_of(pose.begin(), pose.end(), mirrors)) return mesh.triangle;
   std::vector<std::uint8_t> is_mirrored;

@@ -160,7 +160,7 @@ void require_matches(const tinygltf::Model& model, const std::vector<NodeState>&
       names.push_back(mesh_label(model, model.nodes[n].mesh));
     }
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "no node with a mesh and no mesh is named \"%s\", which you asked %s; the file has %s",
+                  "no mesh and no node with a mesh is named \"%s\", which you asked %s; the file has %s",
                   pattern.substr(0, 120).c_str(), purpose,
                   names.empty() ? "no mesh" : listed(std::move(names)).c_str());
   }
@@ -204,8 +204,10 @@ void require_any(const tinygltf::Model& model, const std::vector<NodeState>& sta
       why += (why.empty() ? "" : "; ") + std::to_string(names.size()) + " " + reason.text + " (" +
              listed(names) + ")";
   if (!why.empty())
-    throw Failure(NOOK_ERROR_BAD_FILE,
-                  "no triangles: every mesh of the scene is left out: %s; show or choose one", why.c_str());
+    throw Failure(
+        NOOK_ERROR_BAD_FILE,
+        "no triangles, because every mesh of the scene is left out: %s; show a mesh, or choose one by name",
+        why.c_str());
 }
 
 void note_levels(const tinygltf::Model& model, const std::vector<NodeState>& state,
@@ -219,8 +221,9 @@ void note_levels(const tinygltf::Model& model, const std::vector<NodeState>& sta
   for (std::size_t n = 0; n < state.size(); ++n)
     if (state[n] == NodeState::in && level[n] > 0) taken.push_back(node_label(model, n));
   if (!taken.empty())
-    notes.push_back("every mesh has the name of a lower level of detail; the finest level was used: " +
-                    listed(taken));
+    notes.push_back(
+        "the names of all meshes mark them as lower levels of detail, so the finest level was used: " +
+        listed(taken));
 }
 
 void note_other_scenes(const tinygltf::Model& model, const std::vector<NodeState>& state,
@@ -254,8 +257,11 @@ void note_transparent(const tinygltf::Model& model, const std::vector<NodeState>
   if (names.empty()) return;
   const std::string first = names.front();
   notes.push_back(
-      counted(names.size(), " mesh has a material with alpha 0, but darkens other meshes like a solid mesh: ",
-              " meshes have materials with alpha 0, but darken other meshes like solid meshes: ") +
+      counted(
+          names.size(),
+          " mesh has a material with alpha 0, but the bake treats it as solid, so it darkens other meshes: ",
+          " meshes have materials with alpha 0, but the bake treats them as solid, so they darken other "
+          "meshes: ") +
       listed(names) + "; leave out a mesh that is never visible: --without \"" + first + "\"");
 }
 

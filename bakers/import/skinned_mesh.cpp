@@ -11,7 +11,7 @@ namespace nook::bake {
 
 void skin_positions(const SkinnedMesh& mesh, const Pose& pose, std::vector<Vec3>& out_ws) {
   if (pose.size() != mesh.bones.size())
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "wrong number of bone matrices (got %zu, need %zu)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of bone matrices is wrong (got %zu, need %zu)",
                   pose.size(), mesh.bones.size());
   out_ws.resize(mesh.vertex_count());
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {

@@ -56,7 +56,7 @@ void BakeJob::run(const Bake& bake, std::size_t threads) {
     });
     // A request to cancel is honoured even after the last progress callback, because the caller does not need
     // the file.
-    if (cancelled_) throw Failure(NOOK_ERROR_CANCELLED, "cancelled when the bake was nearly done");
+    if (cancelled_) throw Failure(NOOK_ERROR_CANCELLED, "cancelled shortly before the end of the bake");
   } catch (...) {
     outcome = outcome_of(std::current_exception());
   }

@@ -121,9 +121,10 @@ void add_mesh(const nook_bake_occluder_mesh& mesh, std::uint32_t number, Triangl
   for (std::uint32_t i = 0; i < mesh.index_count; i += 3) {
     for (std::uint32_t c = 0; c < 3; ++c)
       if (mesh.indices[i + c] >= mesh.vertex_count)
-        throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                      "desc.meshes[%u] has an index out of range (got %u, there are %u vertices)", number,
-                      mesh.indices[i + c], mesh.vertex_count);
+        throw Failure(
+            NOOK_ERROR_INVALID_ARGUMENT,
+            "desc.meshes[%u] has an index out of range (got %u, need less than the number of vertices, %u)",
+            number, mesh.indices[i + c], mesh.vertex_count);
     soup.triangle.push_back({base + mesh.indices[i], base + mesh.indices[i + 1], base + mesh.indices[i + 2]});
   }
 }

@@ -96,8 +96,8 @@ std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook
     if (!clips.empty() && split.measured.empty())
       throw Failure(
           NOOK_ERROR_INVALID_ARGUMENT,
-          "desc.next: clip_split: the names of all %zu clips begin with the same word, so the clips are one "
-          "family and none is left to measure; split by half, or name the clips to fit",
+          "desc.next: clip_split: the names of all %zu clips begin with the same word, so all clips belong "
+          "to one family, and none would be left to measure; use the split by half, or name the clips to fit",
           clips.size());
     return split.fitted;
   }

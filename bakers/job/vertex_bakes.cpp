@@ -104,14 +104,14 @@ using Json = nlohmann::ordered_json;
 void require_same_bones(const CharacterModel& model, const SkinnedMesh& mesh) {
   if (model.bone_count() != mesh.bones.size())
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the skeleton of the mesh differs from the model's (got %zu bones, need %zu); export the "
-                  "mesh with the skeleton of the full mesh",
+                  "the skeleton of the mesh differs from the skeleton of the model (got %zu bones, need "
+                  "%zu); export the mesh with the skeleton of the full mesh",
                   mesh.bones.size(), model.bone_count());
   for (std::size_t b = 0; b < mesh.bones.size(); ++b)
     if (mesh.bones[b].name != std::string_view(model.bone_names[b]))
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "the skeleton of the mesh differs from the model's (bone %zu: got %.60s, need %.60s); "
-                    "export the mesh with the skeleton of the full mesh",
+                    "the skeleton of the mesh differs from the skeleton of the model (bone %zu: got %.60s, "
+                    "need %.60s); export the mesh with the skeleton of the full mesh",
                     b, mesh.bones[b].name.c_str(), model.bone_names[b].c_str());
 }
 

@@ -297,7 +297,8 @@ RawMaterial read_btf_file(std::span<const std::byte> bytes, std::uint32_t texels
   std::array<Channel, 3> channels;
   for (Channel& channel : channels) channel = read_channel(rest, size, raw);
   if (rest.size() != 0)
-    throw Failure(NOOK_ERROR_BAD_FILE, "the .btf file has %zu bytes after its last channel; need none",
+    throw Failure(NOOK_ERROR_BAD_FILE,
+                  "the .btf file has %zu bytes after its last channel (need 0); download the file again",
                   rest.size());
   raw.btf.resize(std::size_t(values));
   tbb::parallel_for(std::size_t{0}, raw.views.size(),

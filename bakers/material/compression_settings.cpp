@@ -69,7 +69,8 @@ void check_neural(const CompressionSettings& s) {
                   s.neural_steps, max_neural_steps);
   if (s.relief != ReliefSource::none)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "a neural material cannot have a relief, because its features already have an offset");
+                  "a neural material cannot have a relief, because its network already learns an offset that "
+                  "depends on the view; choose another method, or leave the relief out");
 }
 
 void check_settings(const CompressionSettings& s, const RawMaterial& raw) {

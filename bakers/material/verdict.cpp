@@ -155,9 +155,9 @@ std::string words_of(const Verdict& v, const RawMaterial& raw) {
                      " in views and lights that were held out";
   if (v.negative > many_negative) text += ", " + number("%.0f %%", 100 * v.negative) + " negative values";
   if (v.largest_step > large_step)
-    text += ", a step of " + number("%.0f %%", 100 * v.largest_step) + " for a degree of the view";
+    text += ", a jump of " + number("%.0f %%", 100 * v.largest_step) + " when the view turns by one degree";
   if (v.one_cluster) text += ", one cluster, which is N-SVD with a view map";
-  if (v.ranks_at_cap) text += ", ranks at their cap, which compress nothing";
+  if (v.ranks_at_cap) text += ", ranks at their upper limits, which compress nothing";
   return v.grade == Grade::good ? text : text + "; " + cure(raw);
 }
 
@@ -185,9 +185,10 @@ const char* grade_name(Grade grade) {
 
 Verdict judge(const RawMaterial& raw, const CompressionSettings& settings, const StageProgress& progress) {
   if (settings.method == Method::neural)
-    return not_judged("a network is not trained twice; compare it with `evaluate material --unseen`");
+    return not_judged(
+        "not measured, because a second network would have to be trained; use `evaluate material --unseen`");
   if (raw.lights.size() < fewest_directions || raw.views.size() < fewest_directions)
-    return not_judged("fewer than ten views or lights leave none to hold out");
+    return not_judged("with fewer than ten views or lights, none can be held out");
   const RawMaterial fitted = part_of(raw, false), unseen = part_of(raw, true);
   const CompressionSettings s = trial_settings(settings, raw, fitted);
   const auto held_out = [&](const char*, std::size_t done, std::size_t total) {

@@ -84,7 +84,8 @@ void check(const DatasetSettings& settings) {
                   "1 point, 1 ray and 16 x 16 pixels)",
                   settings.points_per_view, settings.rays, settings.width, settings.height);
   if (!(settings.host_normal_share >= 0 && settings.host_normal_share <= 1))
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the share of host normals is not in [0, 1] (got %g)",
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the share of host normals is out of range (got %g, need 0 to 1)",
                   double(settings.host_normal_share));
 }
 

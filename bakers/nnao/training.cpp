@@ -233,8 +233,8 @@ TrainingState read_checkpoint(std::span<const std::byte> bytes, std::string_view
       *value = numbers.f32();
     if (!is_reachable(state.parameter[i], state.adam.mean[i], state.adam.square[i]))
       throw Failure(NOOK_ERROR_BAD_FILE,
-                    "parameter %zu of the checkpoint cannot come from training (got %g with mean gradient %g "
-                    "and mean squared gradient %g); remove the checkpoint",
+                    "parameter %zu of the checkpoint has values that training cannot produce (got %g with "
+                    "mean gradient %g and mean squared gradient %g); remove the checkpoint",
                     i, double(state.parameter[i]), double(state.adam.mean[i]), double(state.adam.square[i]));
   }
   numbers.check_end();

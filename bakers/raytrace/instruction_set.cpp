@@ -55,8 +55,8 @@ IsaLevel isa_level_of(std::string_view name) {
                   std::string(name).c_str());
   if (asked > best_level())
     throw Failure(NOOK_ERROR_UNSUPPORTED,
-                  "this processor lacks the instruction set (got %s, it has %s); choose a lower one, or bake "
-                  "elsewhere",
+                  "this processor lacks the instruction set (got %s, the processor has %s); "
+                  "choose a lower one, or bake elsewhere",
                   std::string(name).c_str(), name_of(best_level()).c_str());
   return asked;
 }

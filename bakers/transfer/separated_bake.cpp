@@ -71,9 +71,10 @@ void need_unit(Vec3 v, const char* what, Number index) {
 void check_bake(const SurfaceMesh& mesh, const BakeSettings& settings) {
   nook::transfer::check_lobes(settings.lobes, NOOK_ERROR_INVALID_ARGUMENT);
   if (settings.side < 8 || settings.side > max_ray_side)
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the number of rays along a side of the cube is out of range (got %u, need 8 to %u)",
-                  settings.side, max_ray_side);
+    throw Failure(
+        NOOK_ERROR_INVALID_ARGUMENT,
+        "the number of rays along a side of the cube around a vertex is out of range (got %u, need 8 to %u)",
+        settings.side, max_ray_side);
   if (settings.bounces > nook::transfer::max_bounces)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the number of bounces is out of range (got %u, need 0 to %u)",
                   settings.bounces, nook::transfer::max_bounces);

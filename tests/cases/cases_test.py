@@ -296,7 +296,7 @@ def mirrored(positions=False, corners=False, normals=False, matrices=False, **sc
 # Name, how the file is made, options of the command, exit code, words of its message or warnings; and for a file that
 # shows the body of another one, the name of that file.
 INSIDE_OUT = ['a closed part of node "body" (mesh "column" primitive 0', "is inside out"]
-OUTLINE = ['"outline" lies close around', 'of node "body"', '--without "outline"']
+OUTLINE = ['"outline" closely surrounds', 'of node "body"', '--without "outline"']
 CASES = [
     ("plain", edited(no_change), [], 0, []),
     # Versions.
@@ -306,14 +306,14 @@ CASES = [
     ("minimum_2_1", asset(version="2.1", minVersion="2.1"), [], 3, ['glTF version "2.1"', "minVersion"]),
     ("header_1", header_version, [], 3, ["binary header says that the file has glTF version 1"]),
     # Types of accessors.
-    ("indices_float", indices(FLOAT), [], 3, ["indices (accessor 3) is SCALAR of FLOAT"]),
-    ("indices_signed", indices(I16), [], 3, ["indices (accessor 3) is SCALAR of SHORT"]),
-    ("joints_float", attribute("JOINTS_0", [0] * 640, "VEC4", FLOAT), [], 3, ["JOINTS_0 (accessor 7) is VEC4 of FLOAT"]),
-    ("joints_u32", attribute("JOINTS_0", [0] * 640, "VEC4", U32), [], 3, ["JOINTS_0 (accessor 7) is VEC4 of UNSIGNED_INT"]),
-    ("weights_u16", attribute("WEIGHTS_0", [1] * 640, "VEC4", U16), [], 3, ["WEIGHTS_0 (accessor 7) is VEC4 of UNSIGNED_SHORT"]),
+    ("indices_float", indices(FLOAT), [], 3, ["indices (accessor 3) contains SCALAR of FLOAT"]),
+    ("indices_signed", indices(I16), [], 3, ["indices (accessor 3) contains SCALAR of SHORT"]),
+    ("joints_float", attribute("JOINTS_0", [0] * 640, "VEC4", FLOAT), [], 3, ["JOINTS_0 (accessor 7) contains VEC4 of FLOAT"]),
+    ("joints_u32", attribute("JOINTS_0", [0] * 640, "VEC4", U32), [], 3, ["JOINTS_0 (accessor 7) contains VEC4 of UNSIGNED_INT"]),
+    ("weights_u16", attribute("WEIGHTS_0", [1] * 640, "VEC4", U16), [], 3, ["WEIGHTS_0 (accessor 7) contains VEC4 of UNSIGNED_SHORT"]),
     ("positions_u16", attribute("POSITION", [1] * 480, "VEC3", U16), [], 3, ["list KHR_mesh_quantization"]),
     ("sparse_float", edited(sparse_floats), [], 3, ["sparse indices have component type 5126"]),
-    ("times_u16", edited(lambda f, d: d["accessors"][5].update(componentType=U16)), [], 3, ["input (accessor 5) is SCALAR of UNSIGNED_SHORT"]),
+    ("times_u16", edited(lambda f, d: d["accessors"][5].update(componentType=U16)), [], 3, ["input (accessor 5) contains SCALAR of UNSIGNED_SHORT"]),
     ("colours_u8", attribute("COLOR_0", [1] * 640, "VEC4", U8), [], 0, ["COLOR_0, VEC4 of UNSIGNED_BYTE"], "plain"),
     # Weights.
     ("weights_zero_one", zero_weights(1), [], 0, ["1 of 160 skinned vertices have no weights"], "plain"),
@@ -332,7 +332,7 @@ CASES = [
      ["matrix as well as a translation"]),
     ("rotation_of_length_2", node(0, rotation=[0, 0, 0, 2]), [], 0, ["not a unit quaternion"]),
     ("key_of_length_2", rotations(0, 0, 0, 1, 0, 0, 0, 2), [], 0, ["not unit quaternions"]),
-    ("times_equal", key_times(0, 1, 1), [], 0, ["equal key times"]),
+    ("times_equal", key_times(0, 1, 1), [], 0, ["several keys at the same time"]),
     ("times_falling", key_times(0, 2, 1), [], 3, ["key times that decrease"]),
     ("bounds_false", edited(lambda f, d: d["accessors"][0].update(min=[-1, 0, -1], max=[1, 1, 1])), [], 0,
      ["min and max that do not match"], "plain"),
@@ -376,12 +376,12 @@ CASES = [
     ("hidden_parent", edited(hidden_parent), [], 0, ["hidden by KHR_node_visibility", "hull"], "plain"),
     ("lod1", second_body("body_LOD1"), [], 0, ["lower level of detail", "body_LOD1"], "plain"),
     ("lod2_lower_case", second_body("body.lod2"), [], 0, ["lower level of detail", "body.lod2"], "plain"),
-    ("copy", second_body("copy"), [], 0, ["lie on each other"]),
+    ("copy", second_body("copy"), [], 0, ["coincide on"]),
     ("copy_without", second_body("copy"), ["--without", "copy"], 0, []),
     *[(f"outline_{name}", pushed_copy(push, **how), [], 0, words) for name, push, how, words in (
         ("hull", 0.01, {}, OUTLINE), ("hull_open", 0.01, {"is_open": True}, OUTLINE), ("hull_thin", 0.002, {}, OUTLINE),
-        ("primitive", 0.01, {"primitive": True}, ['primitive 1 of node "body" lies close around', "of primitive 0", "remove it from the mesh"]),
-        ("outside", 0.01, {"inside": False}, ['nodes "body" and "outline" lie on each other', '--without "outline"']))],
+        ("primitive", 0.01, {"primitive": True}, ['primitive 1 of node "body" closely surrounds', "of primitive 0", "remove it from the mesh"]),
+        ("outside", 0.01, {"inside": False}, ['nodes "body" and "outline" coincide on', '--without "outline"']))],
     # Both sides of a sheet, as some exporters write two-sided cloth. Rays begin beyond it.
     ("outline_sheet", pushed_copy(0), [], 0, [], "plain"),
     ("outline_far", pushed_copy(0.2), [], 0, ["is inside out"]),
@@ -404,10 +404,10 @@ CASES = [
     ("link_out_allowed", buffer_in("link.bin", "../outside.bin", ("link.bin", "../outside.bin")), [OUTSIDE], 0, []),
     ("folder_out", buffer_in("up/outside.bin", "../outside.bin", ("up", "..")), [], 3, ["a link that leads outside"]),
     ("link_inside", buffer_in("link.bin", "real.bin", ("link.bin", "real.bin")), [], 0, []),
-    ("dots", buffer_in("../outside.bin", "../outside.bin"), [], 3, ["outside of its own folder"]),
-    ("dots_encoded", buffer_in("%2e%2e/outside.bin", "../outside.bin"), [], 3, ["outside of its own folder"]),
+    ("dots", buffer_in("../outside.bin", "../outside.bin"), [], 3, ["outside the folder of this file"]),
+    ("dots_encoded", buffer_in("%2e%2e/outside.bin", "../outside.bin"), [], 3, ["outside the folder of this file"]),
     ("dots_allowed", buffer_in("../outside.bin", "../outside.bin"), [OUTSIDE], 0, []),
-    ("absolute", buffer_in("/etc/hostname", "x.bin"), [], 3, ["outside of its own folder"]),
+    ("absolute", buffer_in("/etc/hostname", "x.bin"), [], 3, ["outside the folder of this file"]),
     # Time: with a quadratic stage, this one takes hours.
     ("unused_vertices", unused_vertices(1_000_000), [], 0, []),
 ]

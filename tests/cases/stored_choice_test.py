@@ -92,7 +92,7 @@ class Test:
         alone = composite[:4] + composite[5:7]
         self.run(2, ["--scene names a room, which only --composite, or --light with --images, measures"], *alone)
         self.run(2, ["--scene-metres has 2 values for 1 of --scene"], *composite, "--scene-metres", "1", "2")
-        self.run(2, ['no node with a mesh and no mesh is named "Crate"'], *composite, "--scene-without", "Crate")
+        self.run(2, ['no mesh and no node with a mesh is named "Crate"'], *composite, "--scene-without", "Crate")
 
 
 def main():

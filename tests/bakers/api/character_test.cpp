@@ -234,7 +234,7 @@ TEST_CASE("a file names others outside of its folder only where that is allowed"
   desc.path = path.c_str();
   nook_bake_character character = nullptr;
   CHECK(nook_bake_character_create(&desc, &character) == NOOK_ERROR_BAD_FILE);
-  CHECK(message_has("outside of its own folder"));
+  CHECK(message_has("outside the folder of this file"));
   desc.allow_outside_files = 2;
   CHECK(nook_bake_character_create(&desc, &character) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(message_has("desc.allow_outside_files"));
@@ -274,12 +274,12 @@ TEST_CASE("faults of a mesh in memory are named") {
   SECTION("a file as well") {
     d.desc.path = "tube.glb";
     CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
-    CHECK(message_has("desc has more than one of desc.path, desc.bytes and arrays"));
+    CHECK(message_has("desc contains more than one of desc.path, desc.bytes and arrays"));
   }
   SECTION("nothing") {
     REQUIRE(nook_bake_source_desc_init(&d.desc) == NOOK_OK);
     CHECK(d.create() == NOOK_ERROR_INVALID_ARGUMENT);
-    CHECK(message_has("desc has none of desc.path, desc.bytes and arrays"));
+    CHECK(message_has("desc contains none of desc.path, desc.bytes and arrays"));
   }
   SECTION("a position that is not finite") {
     d.t.positions[40] = nan_value;

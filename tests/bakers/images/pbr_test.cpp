@@ -203,7 +203,7 @@ TEST_CASE("folders that hold no set, and images that are not maps, are refused b
   write_image(folder.path / "a_disp.exr", 4, 4, 1, OIIO::TypeDesc::FLOAT, [](int x, int y, int) {
     return x == 1 && y == 2 ? std::numeric_limits<float>::quiet_NaN() : 0;
   });
-  CHECK(refusal(folder.path).find("the same map") != std::string::npos);
+  CHECK(refusal(folder.path).find("have names of the same kind of map") != std::string::npos);
   fs::remove(folder.path / "a_height.png");
   CHECK(refusal(folder.path).find("texel (1, 2)") != std::string::npos);
   fs::remove(folder.path / "a_disp.exr");

@@ -57,7 +57,7 @@ TEST_CASE("a binary file cut anywhere is refused") {
   }
 }
 
-TEST_CASE("external files are not read from memory") {
+TEST_CASE("external files, which cannot be read") {
   CHECK(!failure_of(tube_file().gltf("/etc/hostname")).empty());
   CHECK(!failure_of(tube_file().gltf("tube.bin")).empty());
 }
@@ -191,7 +191,8 @@ TEST_CASE("faults of accessors and buffer views") {
   }
   SECTION("another type") {
     accessor["type"] = "VEC4";
-    check_refused(file, "POSITION (accessor 0) is VEC4 of FLOAT (need VEC3 of FLOAT)");
+    check_refused(file,
+                  "POSITION (accessor 0) contains VEC4 of FLOAT (need VEC3; allowed component types: FLOAT)");
   }
   SECTION("sparse values beyond the elements") {
     accessor["sparse"] = {

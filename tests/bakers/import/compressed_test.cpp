@@ -350,7 +350,7 @@ TEST_CASE("hostile Draco data is refused by name") {
   }
   SECTION("an attribute of other components") {
     extension["attributes"]["POSITION"] = extension["attributes"]["JOINTS_0"];
-    check("its accessor has another number");
+    check("its accessor has a different number");
   }
   SECTION("no number") {
     extension["bufferView"] = "x";

@@ -266,5 +266,5 @@ TEST_CASE("triangles without area are dropped and counted") {
 TEST_CASE("a body of implausible size gives a warning") {
   GltfBuilder file = tube_file();
   file.document["nodes"][0]["scale"] = {100, 100, 100};
-  CHECK(has_warning(load(file).warnings, "may not be in metres"));
+  CHECK(has_warning(load(file).warnings, "may not be metres"));
 }

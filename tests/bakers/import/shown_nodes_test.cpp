@@ -320,9 +320,8 @@ GltfBuilder empty_scene() {
 
 std::size_t coincident(const GltfBuilder& file) {
   const StaticScene scene = import_static_scene(file.glb());
-  return std::size_t(std::count_if(scene.warnings.begin(), scene.warnings.end(), [](const std::string& text) {
-    return contains(text, "lie on each other");
-  }));
+  return std::size_t(std::count_if(scene.warnings.begin(), scene.warnings.end(),
+                                   [](const std::string& text) { return contains(text, " coincide on "); }));
 }
 
 }  // namespace
@@ -378,7 +377,7 @@ TEST_CASE("hulls that draw outlines are found, and linings and rooms are not") {
   GltfBuilder file = empty_scene();
   add_tube_mesh(file, "body", 32, 40, 0.3f);
   std::size_t hulls = 0;
-  const char* named = "\"hull\" lies close around";
+  const char* named = "\"hull\" closely surrounds";
   SECTION("around one body") {
     add_tube_mesh(file, "hull", 32, 40, 0.306f, 1, 0);
     hulls = 1;
@@ -406,7 +405,7 @@ TEST_CASE("hulls that draw outlines are found, and linings and rooms are not") {
     meshes[0]["primitives"].push_back(meshes[1]["primitives"][0]);
     file.document["scenes"][0]["nodes"] = {0};
     hulls = 1;
-    named = "primitive 1 of node \"body\" lies close around";
+    named = "primitive 1 of node \"body\" closely surrounds";
   }
   SECTION("a room") {
     add_tube_mesh(file, "room", 32, 40, 0.6f, 1, 0);
