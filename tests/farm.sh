@@ -381,7 +381,7 @@ full_cache() {
     list=$(tasks "full_cache_$round")
     write_few_tasks "$work/full_cache_$round" --cache "$cache" > "$list"
     check "a full cache, run $round: all tasks succeed" run_parallel "$list"
-    check "a full cache, run $round: the log says so" grep -q 'could not keep the result' "$list.log"
+    check "a full cache, run $round: the log says so" grep -q 'could not store the result' "$list.log"
     check "a full cache, run $round: all files" has_all "$work/full_cache_$round" $few_files
     check "a full cache, run $round: equal bytes" same_as_reference "$work/full_cache_$round"
     check "a full cache, run $round: no parts" no_parts "$cache"

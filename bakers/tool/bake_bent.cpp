@@ -56,8 +56,8 @@ void run(Options o) {
 void add_bake_bent(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "bent",
-      "add bent normals to a baked character.\nFor each vertex, ray tracing in a few poses finds two vectors "
-      "that describe which directions the body blocks. Everything else in the model stays the same.");
+      "add bent normals to a baked character.\nThe bake ray traces a few poses, and adds two vectors to each "
+      "vertex that describe which directions the body blocks. Everything else in the model stays the same.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("character", o.input, "the rigged character, a .glb or .gltf file").required();
@@ -71,7 +71,7 @@ void add_bake_bent(Command bake_command) {
                   "number of poses from each clip that the model was fitted to")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--rays", o.task.rays, "rays per vertex and pose")
+  command.add_option("--rays", o.task.rays, "number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   add_import_options(command, o.reading);

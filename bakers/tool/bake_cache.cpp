@@ -124,7 +124,7 @@ std::optional<BakeOutput> BakeCache::find(const std::string& key, bool quiet) co
   if (!model_bytes || !entry_bytes) return std::nullopt;
   std::optional<BakeOutput> output = checked(*entry_bytes, std::move(*model_bytes));
   if (!output) {
-    say(model.string() + ": does not match its checksum in the cache; it is baked again and replaced");
+    say(model.string() + " does not match its checksum in the cache; it will be baked again and replaced");
     return std::nullopt;
   }
   note_use(model);
@@ -145,7 +145,7 @@ void BakeCache::store(const std::string& key, const BakeOutput& output) const {
     put(place_of(folder_, key, ".json"), std::as_bytes(std::span(text)));
     put(model, output.file);
   } catch (const std::system_error& error) {
-    say("--cache: " + folder_.string() + " could not keep the result (" + error.code().message() +
+    say("--cache: " + folder_.string() + " could not store the result (" + error.code().message() +
         "); the bake itself is complete");
   }
 }

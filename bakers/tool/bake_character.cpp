@@ -177,22 +177,23 @@ void add_choice(Command command, const char* name, std::int32_t& value, const Na
 // The form of the model and how it is fitted.
 void add_form_options(Command command, Options& o) {
   add_choice(command, "--form", o.form, {{"default", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "method to use: default, or paper for the kernel, the fit and the gamma of 2 of Le et al. 2019");
+             "method of the bake: default, or paper, which uses the kernel, the fit and the gamma of 2 of Le "
+             "et al. 2019");
   add_choice(command, "--kernel", o.kernel, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "for comparisons: paper selects the paper's kernel and leaves the fit as it is");
+             "for comparisons: paper selects the kernel of the paper, and does not change the fit");
   add_choice(command, "--fit", o.fit, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "for comparisons: paper selects the paper's fit (block coordinate descent with L-BFGS) and "
-             "leaves the kernel as it is");
+             "for comparisons: paper selects the fit of the paper (block coordinate descent with L-BFGS), "
+             "and does not change the kernel");
   command
       .add_option_function(
           "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
-          "exponent of the shadow norm, 1 to 8, or learned to try several values in short fits and keep the "
-          "best; default 1, or 2 with --form paper")
+          "exponent of the shadow norm, 1 to 8, or learned, which tries several values in short fits and "
+          "keeps the best; default 1, or 2 with --form paper")
       .type_name("G|learned")
       .check(in_range(1.0, 8.0) | one_of({"learned"}));
   command
       .add_option("--saturation", o.saturation,
-                  "saturation of the key points at the start of the fit, which then adjusts it; 0: no "
+                  "saturation of the key points at the start of the fit, which then adjusts it; 0 means no "
                   "saturation; default 0.5, or 0 with --form paper, --fit paper or a --gamma other than 1")
       .check(in_range(0.0, 64.0));
 }
@@ -218,27 +219,30 @@ void add_bake_character(Command bake) {
               {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},
               {"clips", NOOK_BAKE_POSES_CLIPS},
               {"all", NOOK_BAKE_POSES_ALL}},
-             "poses to fit: auto (generated poses), single-joint (each joint alone on a grid of rotations), "
-             "clips (the file's clips), or all (auto and clips, default)");
+             "poses to which the model is fitted: auto (generated poses), single-joint (each joint alone on "
+             "a grid of rotations), clips (the file's clips), or all (auto and clips, default)");
   command.add_option("--clips", o.clips, "fit only these clips of the file, separated by commas")
       .delimiter(',');
   add_choice(
       command, "--split", o.split,
       {{"all", NOOK_BAKE_SPLIT_ALL}, {"half", NOOK_BAKE_SPLIT_HALF}, {"families", NOOK_BAKE_SPLIT_FAMILIES}},
-      "which clips to fit when --clips is not given: all (default), half or families. half: every second "
-      "clip in byte order of the names, so that `evaluate` can measure on the others. families: like half, "
-      "but clips whose names begin with the same word stay together, such as Jump_Start and Jump_Land; a "
-      "prefix that all names share does not count. T-poses and A-poses are never fitted");
-  command.add_input("--rig", o.rig,
-                    "rig file that corrects roles, limbs and parents of bones (see Rigs in "
-                    "docs/character.md); `nook inspect FILE --rig` shows what the bake finds without it");
+      "which clips to fit when --clips is not given: all (default), half or families. half fits every second "
+      "clip, in the byte order of the names, so that `evaluate` can measure the other clips. families is "
+      "like half, but keeps clips together whose names begin with the same word, such as Jump_Start and "
+      "Jump_Land; it ignores a prefix that all names share. T-poses and A-poses are never fitted");
+  command.add_input(
+      "--rig", o.rig,
+      "rig file that corrects the roles, limbs and parents of bones (see Rigs in docs/character.md); `nook "
+      "inspect FILE --rig` shows what the bake detects without this file");
   command.add_option("--spheres", o.spheres, "largest number of proxy spheres").check(in_range(1, 1024));
   command.add_option("--key-points", o.key_points, "largest number of key points").check(in_range(1, 4096));
-  command.add_option("--rays", o.rays, "rays per vertex and pose").check(in_range(1, 65536));
+  command.add_option("--rays", o.rays, "number of rays per vertex and pose").check(in_range(1, 65536));
   command.add_option("--auto-poses", o.auto_poses, "number of generated poses").check(in_range(1, 1000000));
   command.add_option("--samples-per-clip", o.samples_per_clip, "number of poses from each clip")
       .check(in_range(1, 1000000));
-  command.add_option("--steps", o.steps, "number of steps of the fit; with --fit paper, number of rounds")
+  command
+      .add_option("--steps", o.steps,
+                  "number of optimisation steps of the fit; with --fit paper, number of rounds")
       .check(in_range(1, 10000000));
   add_form_options(command, o);
   command.add_input("--calibrate", o.calibration,
@@ -249,7 +253,7 @@ void add_bake_character(Command bake) {
                     "scales; of the other options, only --rays and --seed have an effect");
   command
       .add_option("--time-limit", o.time_limit_s,
-                  "end the fit after this many seconds; the results of two such bakes can differ slightly")
+                  "end the fit after this many seconds; two bakes with this option can differ slightly")
       .check(positive_number());
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -69,8 +69,8 @@ void run(Options o) {
 void add_bake_clips(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "clips",
-      "bake ray-traced AO and poses of a character's clips.\nThe file is a small table of the frames. With "
-      "it, a crowd that is drawn from baked animation needs no bones on the CPU.");
+      "bake ray-traced AO and the poses of a character's clips.\nThe result is a small file with one entry "
+      "per frame. With this file, a crowd that is drawn from baked animation needs no bones on the CPU.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("input", o.input, "the character, a .glb or .gltf file").required();
@@ -80,15 +80,18 @@ void add_bake_clips(Command bake_command) {
       .add_option("--clips", o.task.clips,
                   "bake only these clips, separated by commas; default: all but T-poses and A-poses")
       .delimiter(',');
-  command.add_option("--frames-per-second", o.task.frames_per_second, "frames per second of a clip")
+  command
+      .add_option("--frames-per-second", o.task.frames_per_second,
+                  "number of baked frames per second of a clip")
       .check(in_range(0.1, 1000.0))
       .capture_default_str();
-  command.add_option("--rays", o.task.rays, "rays per vertex and frame")
+  command.add_option("--rays", o.task.rays, "number of rays per vertex and frame")
       .check(in_range(1, 65536))
       .capture_default_str();
   command
-      .add_option("--max-error", o.task.tables.max_error,
-                  "root mean square error of AO to reach; the file gets as many modes as this needs")
+      .add_option(
+          "--max-error", o.task.tables.max_error,
+          "largest root mean square error of AO; the bake stores as many AO modes as this error needs")
       .check(in_range(1e-4, 1.0))
       .capture_default_str();
   command

@@ -51,8 +51,8 @@ void add_bake_lod(Command bake_command) {
   const Command command =
       bake_command.add_subcommand("lod",
                                   "bake another mesh of a baked character, such as a level of detail.\nThe "
-                                  "new model keeps the character's spheres, key points and casters. Only the "
-                                  "vertices are fitted to the new mesh, which takes seconds.");
+                                  "new model keeps the spheres, key points and casters of the character. The "
+                                  "bake fits only the vertices of the new mesh, which takes seconds.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("model", o.model, "the model that was baked from the full mesh, a .nook file").required();
@@ -64,10 +64,10 @@ void add_bake_lod(Command bake_command) {
       .capture_default_str();
   command
       .add_option("--samples-per-clip", o.task.samples_per_clip,
-                  "number of poses from each clip of the mesh's file")
+                  "number of poses to fit from each clip in the file of the mesh")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--rays", o.task.rays, "rays per vertex and pose")
+  command.add_option("--rays", o.task.rays, "number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   add_import_options(command, o.reading);

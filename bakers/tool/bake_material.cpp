@@ -363,8 +363,8 @@ void add_bake_material(Command bake) {
                     "colour, normal, roughness or gloss, metalness and height are recognised by their names");
   command
       .add_option("--height-scale", o.height_scale_m,
-                  "for --pbr and an image in --relief: height in metres of the value 1 in the height map; "
-                  "give 1 if the map holds metres")
+                  "for --pbr and an image in --relief: height in metres that the value 1 of the height map "
+                  "stands for; give 1 if the values are metres")
       .check(non_negative_number())
       .capture_default_str();
   command
@@ -387,8 +387,8 @@ void add_bake_material(Command bake) {
   command.add_input("--raw", o.raw, "source: a raw material that --keep-raw wrote");
   add_bake_options(command, o.baking);
   command.add_flag("--strict", o.strict,
-                   "fail with exit code 4 and write nothing if the quality is bad: below 12 dB in views and "
-                   "lights that were held out");
+                   "if the quality is bad, fail with exit code 4 and write nothing; bad means a "
+                   "signal-to-error ratio below 12 dB in views and lights that were held out");
   command.add_option("--keep-raw", o.keep_raw,
                      "also write the uncompressed material to this file, for `evaluate material`");
   command.add_option("--images", o.images,
@@ -401,7 +401,7 @@ void add_bake_material(Command bake) {
   command
       .add_option(
           "--lights", o.lights,
-          "for --meso and --pbr: number of light directions, if they should differ from the view directions")
+          "for --meso and --pbr: number of light directions; default: the same directions as the views")
       .check(in_range(4, 1024));
   command
       .add_option("--max-tilt", o.max_tilt_deg,
@@ -409,22 +409,23 @@ void add_bake_material(Command bake) {
       .check(in_range(10.0, 80.0))
       .capture_default_str();
   command
-      .add_option("--texels", o.texels,
-                  "texels along a side; with --meso and --pbr the resolution, default 96; with --btf the "
-                  "size of a square cut from the middle, default all")
+      .add_option(
+          "--texels", o.texels,
+          "number of texels along a side. With --meso and --pbr: the resolution, default 96. With --btf: the "
+          "size of a square that is cut from the middle of the images, default the whole images")
       .check(in_range(1, 1024));
   command
       .add_option("--samples", o.trace.samples,
-                  "for --meso and --pbr: view rays along the side of a texel; a texel takes the square of "
-                  "this number")
+                  "for --meso and --pbr: number of view rays along the side of a texel, so that each texel "
+                  "takes the square of this number")
       .check(in_range(1, 16))
       .capture_default_str();
-  command.add_option("--bounces", o.trace.bounces, "for --meso and --pbr: number of diffuse bounces")
+  command.add_option("--bounces", o.trace.bounces, "for --meso and --pbr: number of diffuse bounces of light")
       .check(in_range(0, 16))
       .capture_default_str();
   command
       .add_option("--bounce-rays", o.trace.bounce_rays,
-                  "for --meso and --pbr: rays that gather bounced light at each vertex")
+                  "for --meso and --pbr: number of rays that gather bounced light at each vertex")
       .check(in_range(1, 4096))
       .capture_default_str();
   command
@@ -436,10 +437,12 @@ void add_bake_material(Command bake) {
       "for --meso: radius of a fibre or a hole, or half the width of a yarn, as a share of the tile's side");
   command.add_option("--thickness", o.thickness,
                      "for --meso: thickness of the mat, the plate or a yarn, as a share of the tile's side");
-  command.add_option(
-      "--roughness", o.roughness,
-      "for --meso: how much fibres wander, how strong the noise is, or how deep the plies of a yarn are");
-  command.add_option("--detail", o.detail, "for --meso: triangles per length, relative to the default")
+  command.add_option("--roughness", o.roughness,
+                     "for --meso: how far fibres wander, how strong the noise is, or how deep the plies of a "
+                     "yarn are, depending on the structure");
+  command
+      .add_option("--detail", o.detail,
+                  "for --meso: number of triangles per unit of length, as a multiple of the default")
       .check(in_range(0.1, 4.0));
   CompressionSettings& s = o.compression.settings;
   command
@@ -457,8 +460,8 @@ void add_bake_material(Command bake) {
       .type_name("NAME");
   command
       .add_option("--channels", s.neural_channels,
-                  "for --method neural: feature channels per texel, a multiple of 4 up to 64; each takes "
-                  "half a byte per texel in the file")
+                  "for --method neural: number of feature channels per texel, a multiple of 4 up to 64; each "
+                  "channel takes half a byte per texel in the file")
       .check(in_range(4, 64))
       .capture_default_str();
   command.add_option("--steps", s.neural_steps, "for --method neural: number of training steps")
@@ -477,20 +480,21 @@ void add_bake_material(Command bake) {
       .type_name("NAME");
   command
       .add_option("--visibility-mapping", o.visibility_mapping,
-                  "threshold T and weight W that turn stored values into visibility; paper selects 0.5,1 for "
-                  "--votf binary and 0.05,12 for --votf distance; default 0.5,1 for binary, and half a texel "
-                  "and 1 / T for distance")
+                  "threshold T and weight W with which shaders turn stored values into visibility; paper "
+                  "selects 0.5,1 for --votf binary and 0.05,12 for --votf distance; default: 0.5,1 for "
+                  "binary; for distance, T is half a texel and W is 1 / T")
       .type_name("T,W|paper");
   command
-      .add_option("--view-map", s.map_side,
-                  "for --method k-cta: cells along a side of the resampled view maps; 0: no view map, and "
-                  "decoding mixes the three nearest views, which costs up to three times as much")
+      .add_option(
+          "--view-map", s.map_side,
+          "for --method k-cta: number of cells along a side of the resampled view maps. 0 means no view map: "
+          "then decoding mixes the three nearest views, which costs up to three times as much")
       .check(in_range(0, 512))
       .capture_default_str();
   command
       .add_option("--step-penalty", s.step_penalty,
                   "penalty on differences between neighbouring cells of the view map; a larger value gives a "
-                  "calmer picture in motion and a larger error; 10 halves the largest jump")
+                  "calmer picture in motion, but a larger error; 10 halves the largest jump")
       .check(in_range(0.0, 1000.0))
       .capture_default_str();
   command
@@ -502,10 +506,10 @@ void add_bake_material(Command bake) {
                                           : ReliefSource::known;
             o.relief = s.relief == ReliefSource::known && v != "known" ? v : "";
           },
-          "heights that shaders march, to sharpen views between the stored ones: none (default), estimated, "
-          "known, or an image of heights that is scaled as with --pbr. known takes the heights of --meso or "
-          "--pbr. estimated finds heights on which the views agree, and stores none if they predict no view "
-          "better")
+          "heights through which shaders march rays, so that views between the stored views are sharper: "
+          "none (default), estimated, known, or an image of heights, scaled as with --pbr. known takes the "
+          "heights of --meso or --pbr. estimated finds heights on which the views agree, and stores no "
+          "heights if they do not improve the prediction of any view")
       .type_name("none|estimated|known|IMAGE");
   command.reads(o.relief);
   add_compression_options(command, o.compression);

@@ -38,10 +38,10 @@ void run(const BakeProbeOptions& options) {
 }  // namespace
 
 void add_bake_probe(Command bake_command) {
-  const Command command = bake_command.add_subcommand("probe",
-                                                      "bake light probes from an environment map, or a grid "
-                                                      "of them in a scene.\nEach probe stores light as a "
-                                                      "few spherical Gaussians. A scene is path traced.");
+  const Command command = bake_command.add_subcommand(
+      "probe",
+      "bake a light probe from an environment map, or a grid of light probes in a scene.\nEach probe stores "
+      "light as a few spherical Gaussians. A scene is path traced.");
   const auto options = std::make_shared<BakeProbeOptions>();
   BakeProbeOptions& o = *options;
   command.add_input("input", o.input, "a latitude-longitude map (.hdr or .exr), or a scene (.glb or .gltf)")
@@ -51,8 +51,8 @@ void add_bake_probe(Command bake_command) {
   command
       .add_option(
           "--sampling", o.sampling,
-          "for a map, how to take samples: texels takes each texel once, luminance and uniform draw at "
-          "random; automatic takes texels if --method solves for all samples at once, otherwise luminance")
+          "for a map: how to choose samples. texels takes each texel once, luminance and uniform draw texels "
+          "at random; automatic is texels if --method solves for all samples at once, otherwise luminance")
       .check(one_of({"automatic", "texels", "luminance", "uniform"}))
       .capture_default_str();
   command
@@ -60,9 +60,9 @@ void add_bake_probe(Command bake_command) {
                   "for a map: number of samples to draw, default 1048576; for a scene: largest number of "
                   "samples per probe, default 65536")
       .check(in_range(64u, 1u << 30));
-  command.add_option(
-      "--picture", o.picture,
-      "for a map: write one .png with the map, the probe's radiance and irradiance, and the error");
+  command.add_option("--picture", o.picture,
+                     "for a map: write one .png that shows the map, the radiance and irradiance of the "
+                     "probe, and the error");
   command
       .add_option_function(
           "--grid", [&o](const std::string& text) { o.grid = parse_grid_counts(text); },
@@ -76,7 +76,7 @@ void add_bake_probe(Command bake_command) {
       .type_name("BOX");
   command
       .add_option("--error", o.error,
-                  "for a scene: stop once the statistical error falls below this share of the light")
+                  "for a scene: stop when the statistical error falls below this share of the light")
       .check(in_range(0.0, 1.0))
       .capture_default_str();
   command
@@ -97,7 +97,8 @@ void add_bake_probe(Command bake_command) {
                    "and fit the probes to the light on surfaces; needs --basis harmonics --order 2");
   command
       .add_option("--training-paths", o.training_paths,
-                  "with --walls: paths traced for each place that walls and probes are fitted to")
+                  "with --walls: number of paths to trace from each point on surfaces to which walls and "
+                  "probes are fitted")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
   add_import_options(command, o.reading);

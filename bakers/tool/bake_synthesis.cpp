@@ -69,8 +69,8 @@ void run(Options& o) {
 void add_bake_synthesis(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "synthesis",
-      "spread a material over a plane without visible repeats.\nWrites a texture of coordinates, which says "
-      "for each texel of the plane which texel of the material it shows.");
+      "spread a material over a plane without visible repeats.\nThe result is a texture of coordinates. For "
+      "each texel of the plane, it stores which texel of the material to show.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
@@ -79,14 +79,14 @@ void add_bake_synthesis(Command bake_command) {
       .required();
   add_bake_options(command, o.baking);
   command
-      .add_option(
-          "--size", o.settings.side,
-          "texels along a side of the plane, a multiple of 64; after this many texels, the plane repeats")
+      .add_option("--size", o.settings.side,
+                  "number of texels along a side of the plane, a multiple of 64; the plane repeats after "
+                  "this many texels")
       .check(in_range(bake::synthesis::side_step, nook::synthesis::max_side))
       .capture_default_str();
   command.add_flag("!--no-tile", o.is_tiling,
-                   "the material has seams where it repeats, as measured materials do");
-  command.add_option("--crop", o.crop, "the part of the material that may show, in texels: X Y WIDTH HEIGHT")
+                   "say that the material has visible seams at its borders, as measured materials have");
+  command.add_option("--crop", o.crop, "the part of the material to use, in texels: X Y WIDTH HEIGHT")
       .expected(4);
   command
       .add_option("--jitter", o.settings.jitter,

@@ -81,8 +81,8 @@ void run(const Options& o) {
 void add_bake_transfer(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "transfer",
-      "bake how much of each direction's light reaches a static shape.\nAt run time any light can then shade "
-      "the shape's materials, with the shadows that the shape casts on itself.");
+      "bake how much light from each direction reaches a static shape (radiance transfer).\nAt run time, you "
+      "can then light the shape with any light, including the shadows that the shape casts on itself.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("input", o.input, "the shape, a .glb or .gltf file with texture coordinates").required();
@@ -94,37 +94,42 @@ void add_bake_transfer(Command bake_command) {
       .capture_default_str();
   command
       .add_option("--ray-side", o.settings.side,
-                  "rays per vertex: 6 times the square of this number, on the faces of a cube")
+                  "number of rays along a side of the cube around each vertex; a vertex takes 6 times the "
+                  "square of this number")
       .check(in_range(8u, bake::transfer::max_ray_side))
       .capture_default_str();
   command
       .add_option("--bounces", o.settings.bounces,
-                  "number of bounces between parts of the shape; each adds 18 bytes per vertex")
+                  "number of bounces of light between parts of the shape; each bounce adds 18 bytes per "
+                  "vertex to the file")
       .check(in_range(0u, transfer::max_bounces))
       .capture_default_str();
-  command.add_input(
-      "--votf", o.votf,
-      "the .nook file of the material on the shape, if light should fall through the material's holes");
+  command.add_input("--votf", o.votf,
+                    "the .nook file of the material on the shape; with this option, light falls through the "
+                    "holes of the material");
   command
-      .add_option("--tiles", o.settings.tiles, "tiles of the --votf material per unit of texture coordinates")
+      .add_option("--tiles", o.settings.tiles,
+                  "number of tiles of the --votf material per unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();
   command
-      .add_option(
-          "--form", o.form,
-          "separated works with any material; paper stores matrices for one --material, compressed by CTA")
+      .add_option("--form", o.form,
+                  "form of the result: separated works with any material; paper stores matrices for the one "
+                  "material of --material, compressed by CTA")
       .check(one_of({"separated", "paper"}))
       .capture_default_str();
   command.add_input("--material", o.material, "for --form paper: the .nook file of the material");
   command
       .add_option("--clusters", o.paper.clusters,
-                  "for --form paper: number of vertex clusters; 0: one per 360 vertices")
+                  "for --form paper: number of vertex clusters; 0 means one per 360 vertices")
       .check(in_range(0u, transfer::max_clusters))
       .capture_default_str();
-  command.add_option("--lobe-rank", o.paper.lobe_rank, "for --form paper: lobe modes per cluster")
+  command.add_option("--lobe-rank", o.paper.lobe_rank, "for --form paper: number of lobe modes per cluster")
       .check(in_range(1u, transfer::max_lobe_rank))
       .capture_default_str();
-  command.add_option("--vertex-rank", o.paper.vertex_rank, "for --form paper: vertex modes per cluster")
+  command
+      .add_option("--vertex-rank", o.paper.vertex_rank,
+                  "for --form paper: number of vertex modes per cluster")
       .check(in_range(1u, transfer::max_vertex_rank))
       .capture_default_str();
   add_import_options(command, o.reading);

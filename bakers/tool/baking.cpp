@@ -95,18 +95,19 @@ void add_bake_options(Command command, BakeOptions& options) {
   options.survey = command.survey();
   command.add_option("-o,--output", options.output, "the .nook file to write");
   command.add_flag("--print-key", options.prints_key,
-                   "read the inputs, print the key of the bake and end: equal keys mean equal results "
-                   "(docs/guide/pipeline.md)");
-  command.add_option("--depfile", options.depfile,
-                     "write a rule for Make and Ninja that names all files that the bake reads");
+                   "do not bake: only read the inputs, and print the key of the bake. Equal keys mean equal "
+                   "results (docs/guide/pipeline.md)");
+  command.add_option(
+      "--depfile", options.depfile,
+      "write a rule for Make and Ninja to this file; the rule names all files that the bake reads");
   command.add_option("--cache", options.cache,
-                     "a folder that stores results by their keys: a result that it contains is copied "
-                     "instead of baked; default NOOK_CACHE, if it is set");
+                     "folder that stores results by their keys. If the folder contains the result, it is "
+                     "copied instead of baked; default: the environment variable NOOK_CACHE, if set");
   command
-      .add_option("--isa", options.isa,
-                  "the instruction set to bake with, so that old and new processors of one maker give the "
-                  "same bytes: x86-64-v2, x86-64-v3, or native, which is the best that this processor "
-                  "has (default)")
+      .add_option(
+          "--isa", options.isa,
+          "instruction set to bake with: x86-64-v2, x86-64-v3, or native, the best that this processor has "
+          "(default). With a fixed set, old and new processors of one maker give the same bytes")
       .check(one_of({"native", "x86-64-v2", "x86-64-v3"}));
 }
 

@@ -148,11 +148,13 @@ void run(const Options& options) {
 void add_build(Command tool) {
   const Command command = tool.add_subcommand(
       "build",
-      "bake the assets of a project that have changed.\nMakes a plan like nook plan, and runs it with Ninja. "
-      "If a bake fails, the others still run, and the exit code is 1.");
+      "bake the assets of a project that have changed.\nThis command makes a plan like nook plan, and runs "
+      "the plan with Ninja. If a bake fails, the other bakes still run, and the exit code is 1.");
   const auto options = std::make_shared<Options>();
   plan::add_plan_options(command, options->plan);
-  command.add_option("-j,--jobs", options->jobs, "number of bakes at a time; 0: one per core")
+  command
+      .add_option("-j,--jobs", options->jobs,
+                  "number of bakes that run at the same time; 0 means one per core")
       .check(in_range(0, 1024))
       .capture_default_str();
   command.callback([options] { run(*options); });

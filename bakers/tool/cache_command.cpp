@@ -35,16 +35,18 @@ void run(const Options& options) {
 }  // namespace
 
 void add_cache_prune(Command cache) {
-  const Command command = cache.add_subcommand("prune", "remove old results, or shrink the cache to a size");
+  const Command command =
+      cache.add_subcommand("prune", "remove old results from a cache, or shrink the cache to a given size");
   const auto options = std::make_shared<Options>();
-  command.add_option("--cache", options->cache, "the folder; default NOOK_CACHE");
+  command.add_option("--cache", options->cache,
+                     "folder of the cache; default: the environment variable NOOK_CACHE");
   command
       .add_option("--older", options->days, "remove results that were last used more than this many days ago")
       .check(in_range(0.0, 36500.0));
   command
-      .add_option(
-          "--size", options->megabytes,
-          "then remove the least recently used results, until at most this many MB (10^6 bytes) are left")
+      .add_option("--size", options->megabytes,
+                  "then remove the results that were unused for longest, until at most this many MB (10^6 "
+                  "bytes) are left")
       .check(in_range(0.0, 1e9));
   command.callback([options] { run(*options); });
 }

@@ -5,7 +5,7 @@
 namespace nook::tool {
 
 void add_common_options(Command command, CommonOptions& options) {
-  command.add_option("--threads", options.threads, "number of threads; 0: one per core")
+  command.add_option("--threads", options.threads, "number of threads; 0 means one per core")
       .check(in_range(0, 1024))
       .capture_default_str();
   command

@@ -36,20 +36,21 @@ void add_compression_options(Command command, CompressionOptions& o) {
   CompressionSettings& s = o.settings;
   s.bits = default_bits;
   command
-      .add_option(
-          "--ranks", o.ranks,
-          "ranks of the BTF for light (L), views (V, in all clusters together) and texels (X, Y); auto "
-          "chooses them by --threshold. Default: their own ranks for built-in materials, auto for others")
+      .add_option("--ranks", o.ranks,
+                  "ranks of the BTF for light (L), views (V, in all clusters together) and texels (X, Y); "
+                  "auto chooses them by --threshold. Default: fixed ranks for each built-in material, auto "
+                  "for other materials")
       .type_name("L,V,X,Y|auto");
   command
       .add_option("--votf-ranks", o.votf_ranks, "ranks of the visibility (VOTF) along the texture's x and y")
       .type_name("X,Y");
   command
       .add_option("--threshold", o.threshold,
-                  "for --ranks auto: squared error that each mode may add, as a share of the squared norm")
+                  "for --ranks auto: largest squared error that each mode may add, as a share of the squared "
+                  "norm of the material")
       .check(in_range(1e-6, 0.5))
       .capture_default_str();
-  command.add_option("--cluster-rank", s.cluster_rank_view, "ranks for views in one cluster")
+  command.add_option("--cluster-rank", s.cluster_rank_view, "number of view ranks in each cluster")
       .check(in_range(1, 64))
       .capture_default_str();
   command.add_option("--clusters", s.clusters, "number of view clusters; default V / --cluster-rank")
@@ -59,14 +60,14 @@ void add_compression_options(Command command, CompressionOptions& o) {
       .capture_default_str();
   command
       .add_option("--votf-refits", s.votf_refits,
-                  "number of further fits of the visibility (VOTF), which only try to bring each value to "
-                  "the right side of the threshold")
+                  "number of additional fits of the visibility (VOTF), which only move values to the right "
+                  "side of the threshold")
       .check(in_range(0, 16))
       .capture_default_str();
   command
       .add_option("--bits", s.bits,
-                  "bits per number: 8 for integers in the file and in textures, or 16 for half floats, which "
-                  "take twice the space and gain 0.1 dB")
+                  "bits per stored number: 8 (integers in the file and in textures) or 16 (half floats, "
+                  "which take twice the space and gain 0.1 dB)")
       .check(one_of_numbers({8, 16}))
       .capture_default_str();
   command

@@ -82,9 +82,8 @@ void add_evaluate_bent(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "bent",
       "measure bent normals and specular occlusion of a character against ray tracing.\nSpecular occlusion "
-      "is "
-      "measured at five roughness values, under uniform light and under maps, beside S. Lagarde's formula "
-      "with the same AO.");
+      "is measured at five roughness values, under uniform light and under environment maps. It is compared "
+      "with S. Lagarde's formula, which uses the same AO.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.most = 24;
@@ -106,7 +105,9 @@ void add_evaluate_bent(Command evaluate_command) {
   command.add_option("--points", o.study.points, "number of vertices measured in each pose")
       .check(in_range(1, 10000000))
       .capture_default_str();
-  command.add_option("--rays", o.study.rays, "rays per vertex for AO; a reflection takes a quarter of them")
+  command
+      .add_option("--rays", o.study.rays,
+                  "number of rays per vertex for AO; a reflection takes a quarter of this number")
       .check(in_range(8, 65536))
       .capture_default_str();
   command

@@ -80,12 +80,13 @@ Json evaluate(const Options& options) {
 void add_evaluate_casters(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "casters",
-      "measure how a neighbour darkens a body, from 0.3 to 10 m away.\nPrints the mean darkening by ray "
-      "tracing and by each form of casters, and the error, over several directions and poses.");
+      "measure how a neighbour darkens a body, from 0.3 to 10 m away.\nThis command prints the mean "
+      "darkening by ray tracing and by each form of casters, and the error of each form, over several "
+      "directions and poses.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
-  command.add_option("--rays", o.study.rays, "rays per vertex")
+  command.add_option("--rays", o.study.rays, "number of rays per vertex")
       .check(in_range(1, 65536))
       .capture_default_str();
   const Option bearings =
@@ -103,15 +104,16 @@ void add_evaluate_casters(Command evaluate_command) {
           .delimiter(',')
           .check(in_range(0.01, 1000.0))
           .default_str("0.3,0.5,0.75,1,2,3,5,10");
-  const Option radii =
-      command.add_flag("--radii", o.study.in_radii,
-                       "give --distances in bounding radii of the body and not in metres, to compare bodies "
-                       "of different size; the radius of a person is about 1 m");
-  const Option contact = command.add_option(
-      "--contact", o.contact,
-      "instead measure two bodies that darken each other, each in the middle of a clip. Give the names of "
-      "both clips, the position of the second body relative to the first body's middle (x, y and z in "
-      "metres), and the second body's turn about the vertical axis in degrees");
+  const Option radii = command.add_flag(
+      "--radii", o.study.in_radii,
+      "give --distances as multiples of the bounding radius of the body instead of metres, so that you can "
+      "compare bodies of different size; the radius of a person is about 1 m");
+  const Option contact =
+      command.add_option("--contact", o.contact,
+                         "measure two bodies that darken each other, each in the middle of a clip, instead "
+                         "of --distances. Give the names of both clips, the position of the second body "
+                         "relative to the middle of the first body (x, y and z in metres), and the angle in "
+                         "degrees by which the second body is turned about the vertical axis");
   contact.type_name("CLIP CLIP X Y Z DEGREES");
   for (const Option unused : {bearings, poses, distances, radii}) contact.excludes(unused);
   command.add_option(

@@ -109,18 +109,19 @@ void add_evaluate_character(Command evaluate_command) {
 void add_evaluate_character(Command evaluate_command, std::span<const CharacterPeer> peers) {
   const Command command = evaluate_command.add_subcommand(
       "character",
-      "measure a baked character against ray tracing.\nmse: mean squared error over all vertices and poses. "
-      "mse_visible: the same over vertices with a traced AO of 0.01 or more; visible_share is their share. "
-      "mse_area: vertices weighted by area. mse_static: the error if AO is baked once in the rest pose. "
-      "mse_oracle: the error of the best possible static bake.");
+      "measure a baked character against ray tracing.\nmse is the mean squared error over all vertices and "
+      "poses. mse_visible covers only vertices with a traced AO of 0.01 or more; visible_share is the share "
+      "of these vertices. mse_area weights vertices by area. mse_static is the error if AO is baked once in "
+      "the rest pose. mse_oracle is the error of the best possible static bake.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
   command
       .add_option_function(
           "--poses", [&o](const std::string& name) { o.poses.training = name == "training"; },
-          "clips (default), or training for the poses that the model was fitted to. Without --clips, `clips` "
-          "measures the clips that the model was not fitted to, or all clips if it was fitted to all")
+          "which poses to measure: clips (default), or training, the poses that the model was fitted to. "
+          "Without --clips, `clips` measures the clips that the model was not fitted to, or all clips if it "
+          "was fitted to all")
       .check(one_of({"clips", "training"}))
       .type_name("NAME");
   command.add_option("--clips", o.poses.clips, "measure only these clips, separated by commas")
@@ -130,13 +131,13 @@ void add_evaluate_character(Command evaluate_command, std::span<const CharacterP
       .capture_default_str();
   command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
       .check(in_range(1, 10000000));
-  command.add_option("--rays", o.rays, "rays per vertex and pose")
+  command.add_option("--rays", o.rays, "number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   command.add_flag("--motion", o.is_motion,
-                   "instead measure motion: how much AO changes from frame to frame at 60 Hz, beside ray "
-                   "tracing, over a run of frames of each clip. --max-poses limits the frames of all clips "
-                   "together (default 480). share_beyond is the share of vertices and frames whose AO "
+                   "measure motion instead: how much AO changes from frame to frame at 60 Hz, compared with "
+                   "ray tracing, over consecutive frames of each clip. --max-poses limits the frames of all "
+                   "clips together (default 480). share_beyond is the share of vertices and frames whose AO "
                    "changes by 0.02 more than the ray-traced AO");
   command.add_option("--images", o.images,
                      "write PNG files into this folder that show the error on the body");

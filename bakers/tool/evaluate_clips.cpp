@@ -87,14 +87,15 @@ Json evaluate(const Options& options) {
 void add_evaluate_clips(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "clips",
-      "measure baked clips against ray tracing.\nMeasures at the frames, half-way between frames, and beside "
-      "one neighbour in the same clips, and compares with the live model in the same poses. mse_visible is "
-      "the mean squared error over vertices with a traced AO of 0.01 or more.");
+      "measure baked clips against ray tracing.\nErrors are measured at the baked frames, half-way between "
+      "frames, and next to one neighbour in the same clips. They are compared with the errors of the "
+      "character model in the same poses. mse_visible is the mean squared error over vertices with a traced "
+      "AO of 0.01 or more.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
   command.add_input("clips", o.clips, "the baked clips, a .nook file").required();
-  command.add_option("--rays", o.study.rays, "rays per vertex and pose")
+  command.add_option("--rays", o.study.rays, "number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   command

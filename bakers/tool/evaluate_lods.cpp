@@ -92,17 +92,16 @@ void add_evaluate_lods(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "lods",
       "measure lower levels of detail of a character against ray tracing.\nmeshoptimizer makes meshes with "
-      "fewer triangles from the character, and each is compared with ray tracing of itself. refitted: the "
-      "vertices are fitted to their own mesh, as nook bake lod does. resampled: the weights are interpolated "
-      "from the full mesh (nook_model_resample). nearest: each vertex takes the AO of the nearest baked "
-      "vertex.");
+      "fewer triangles from the character, and each mesh is compared with its own ray-traced AO. refitted "
+      "fits the vertices of the new mesh, like nook bake lod. resampled interpolates the weights from the "
+      "full mesh (nook_model_resample). nearest gives each vertex the AO of the nearest baked vertex.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.samples_per_clip = 4;
   add_evaluated_files(command, o.files);
   command
       .add_option("--shares", o.shares,
-                  "triangles of each level as a share of the full mesh, separated by commas")
+                  "number of triangles of each level as a share of the full mesh, separated by commas")
       .delimiter(',')
       .check(in_range(0.001, 1.0))
       .capture_default_str();
@@ -116,7 +115,7 @@ void add_evaluate_lods(Command evaluate_command) {
                   "number of poses to which the refitted vertices are fitted")
       .check(in_range(8, 100000))
       .capture_default_str();
-  command.add_option("--rays", o.rays, "rays per vertex and pose")
+  command.add_option("--rays", o.rays, "number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   add_common_options(command, o.common);

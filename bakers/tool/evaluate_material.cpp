@@ -113,8 +113,8 @@ Json evaluate(const Options& o, const MaterialPeers* peers) {
 void add_mode_options(Command command, nook::material::ModeForm& form) {
   command
       .add_choice("--modes", form.blocks, block_forms,
-                  "how the spatial modes are stored when the material is drawn: plain (as in the file), or "
-                  "block-compressed as rgtc or eac")
+                  "how the textures store the spatial modes when the material is drawn: plain (as in the "
+                  "file), or compressed in blocks of the formats rgtc or eac")
       .type_name("FORM");
   command
       .add_option(
@@ -141,10 +141,10 @@ void add_evaluate_material(Command evaluate_command, std::shared_ptr<MaterialPee
                     "a raw material with other views, and possibly other lights, to measure the error "
                     "between the stored samples");
   command.add_flag("--jumps", o.jumps,
-                   "measure how much the picture jumps as the view moves by 0.1 degrees, with and without "
-                   "the view map; --images draws the largest jump");
+                   "measure how much the picture changes when the view turns by 0.1 degrees, with and "
+                   "without the view map; --images draws the largest change");
   command.add_flag("--mipmaps", o.mipmaps,
-                   "measure pixels that cover 2 x 2, 4 x 4 and more texels, with mipmaps and without them");
+                   "measure pixels that cover 2 x 2, 4 x 4 and more texels, with and without mipmaps");
   command.add_flag("--grazing", o.grazing,
                    "measure pixels at view angles of 60 to 85 degrees against supersampling, with 1 to 8 "
                    "fetches along the pixel");

@@ -129,11 +129,14 @@ Json evaluate_frames(platform::Context& context, const FrameWords& words, const 
 void add_evaluate_nnao(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "nnao",
-      "measure recorded frames of the screen-space pass.\nReplays each frame, draws it with the presets, and "
-      "compares with the recorded oracle. `nook-lab evaluate nnao` measures scenes.");
+      "measure recorded frames of the screen-space pass.\nEach frame is drawn again as it was recorded, and "
+      "with the presets. The results are compared with the exact AO of the recorded depth (the oracle). "
+      "`nook-lab evaluate nnao` measures scenes.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("--frame", o.frames, "frame that nook_nnao_record wrote; you can repeat the option")
+  command
+      .add_input("--frame", o.frames,
+                 "recorded frame, a file that nook_nnao_record wrote; you can repeat the option")
       .required()
       .type_name("FILE.nook");
   std::vector<std::string> names{"all", file_name};
@@ -141,8 +144,8 @@ void add_evaluate_nnao(Command evaluate_command) {
   for (const Oracle oracle : all_oracles) names.push_back(oracle_name(oracle));
   command
       .add_option("--methods", o.methods,
-                  "draw only these, each NAME or NAME:TAPS, separated by commas; default: replayed, fast, "
-                  "default, best and oracle, and nnao_file with --network")
+                  "draw only these methods, each as NAME or NAME:TAPS, separated by commas; default: "
+                  "replayed, fast, default, best and oracle, and nnao_file if --network is given")
       .delimiter(',')
       .check([names](const std::string& text) { return one_of(names)(text.substr(0, text.find(':'))); });
   command.add_input(

@@ -159,10 +159,9 @@ void add_evaluate_probe(Command evaluate_command) {
 }
 
 void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> peers) {
-  const Command command =
-      evaluate_command.add_subcommand("probe",
-                                      "measure light probes.\nProbes and fits are compared with their "
-                                      "environment map, grids with path tracing.");
+  const Command command = evaluate_command.add_subcommand(
+      "probe",
+      "measure light probes.\nProbes are compared with their environment map, and grids with path tracing.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
@@ -179,7 +178,7 @@ void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> pe
                   "open space")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
-  command.add_option("--paths", o.grid.paths, "for grids: paths traced from each point")
+  command.add_option("--paths", o.grid.paths, "for grids: number of paths to trace from each point")
       .check(in_range(2u, 1u << 24))
       .capture_default_str();
   command.add_option("--max-bounces", o.grid.max_bounces,

@@ -157,14 +157,14 @@ void add_evaluate_transfer(Command evaluate_command) {
   command.add_input("transfer", o.transfer, "the .nook file that was baked from the shape").required();
   command.add_input("--material", o.material, "the .nook file of the material on the shape").required();
   command.add_input("--raw", o.raw,
-                    "compare pictures with this raw material, which `bake material --keep-raw` wrote, and "
-                    "not with the decoded one");
+                    "draw the reference pictures with this raw material, which `bake material --keep-raw` "
+                    "wrote, instead of the decoded material");
   command.add_input("--light", o.lights, "latitude-longitude maps, .hdr or .exr, as light").required();
   command.add_flag("--without-suns", o.without_suns,
                    "remove suns from the maps first, for engines that draw suns with shadow maps");
   command.add_option("--images", o.images,
-                     "write a picture for each light into this folder, with the path-traced truth and each "
-                     "form side by side");
+                     "write a picture for each light into this folder; each picture shows the path-traced "
+                     "reference and each form side by side");
   command.add_flag("--no-pictures", o.no_pictures, "do not draw pictures; measure only the transfer vectors");
   command.add_option("--width", o.picture.width, "width of a picture in pixels")
       .check(in_range(16, 4096))
@@ -172,7 +172,8 @@ void add_evaluate_transfer(Command evaluate_command) {
   command.add_option("--height", o.picture.height, "height of a picture in pixels")
       .check(in_range(16, 4096))
       .capture_default_str();
-  command.add_option("--paths", o.picture.paths, "light samples per pixel of the path-traced picture")
+  command
+      .add_option("--paths", o.picture.paths, "number of light samples per pixel in the path-traced picture")
       .check(in_range(2u, 1u << 20))
       .capture_default_str();
   command
@@ -180,9 +181,9 @@ void add_evaluate_transfer(Command evaluate_command) {
                   "number of bounces in the path-traced picture; default as in the file")
       .check(in_range(0u, 8u));
   command.add_flag("--truth-holes", o.truth_holes,
-                   "let light fall through the material's holes in the path-traced picture, even if the file "
-                   "was baked without it");
-  command.add_option("--tiles", o.tiles, "tiles of the material per unit of texture coordinates")
+                   "in the path-traced picture, let light fall through the holes of the material, even if "
+                   "the file was baked without holes");
+  command.add_option("--tiles", o.tiles, "number of tiles of the material per unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();
   add_import_options(command, o.reading);

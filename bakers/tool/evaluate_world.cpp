@@ -148,11 +148,12 @@ Json evaluate(const Options& options) {
 void add_evaluate_world(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "world",
-      "measure how a baked character darkens the world around it, against ray tracing.\nThe receivers are a "
-      "floor, a wall 0.3 m away, the ring around a contact, a neighbour and cones of light. Nook's world "
-      "casters are compared with what engines use. over_none: mean squared error as a share of the error "
-      "without darkening. over_capsules: the same as a share of the error with one capsule per bone. low and "
-      "high: 95 % bounds from a bootstrap over the poses.");
+      "measure how a baked character darkens the world around it, against ray tracing.\nThe darkened "
+      "surfaces are a floor, a wall 0.3 m away, a ring of floor around a point of contact, a neighbour, and "
+      "the floor under cones of light. Nook's world casters are compared with the methods that engines use. "
+      "over_none is the mean squared error, divided by the error without any darkening. over_capsules is the "
+      "mean squared error, divided by the error with one capsule per bone. low and high are 95 % bounds from "
+      "a bootstrap over the poses.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.most = 48;
@@ -168,7 +169,8 @@ void add_evaluate_world(Command evaluate_command) {
   command.add_option("--points", o.study.points, "number of points on each surface in each pose")
       .check(in_range(1, 90000))
       .capture_default_str();
-  command.add_option("--rays", o.study.rays, "rays per point; a cone takes an eighth of them")
+  command
+      .add_option("--rays", o.study.rays, "number of rays per point; a cone takes an eighth of this number")
       .check(in_range(8, 65536))
       .capture_default_str();
   command.add_option("--images", o.images,
@@ -180,20 +182,19 @@ void add_evaluate_world(Command evaluate_command) {
       .capture_default_str();
   const Option composite =
       command.add_flag("--composite", o.composite,
-                       "instead measure characters and the screen pass together, in rooms with characters; "
-                       "pixels that the characters darken are reported apart from the others");
+                       "measure characters and the screen pass together instead, in rooms with characters; "
+                       "pixels that the characters darken are reported separately");
   const Option silhouettes =
       command
-          .add_flag(
-              "--silhouettes", o.silhouettes,
-              "instead compare the outlines of shadows on the floor, under a light of 1 degree from 8 "
-              "directions at 45 degrees, in cells of 1 cm: iou is the area in both shadows over the area "
-              "in either")
+          .add_flag("--silhouettes", o.silhouettes,
+                    "compare the outlines of shadows on the floor instead. The light has a cone of 1 degree "
+                    "and comes from 8 directions at 45 degrees; the floor is divided into cells of 1 cm. iou "
+                    "is the area inside both shadows, divided by the area inside at least one")
           .excludes(composite);
   command
       .add_input("--light", o.lights,
-                 "instead measure the irradiance of floor and wall under this latitude-longitude map, each "
-                 "colour channel against path tracing; you can give several maps")
+                 "measure the irradiance of floor and wall under this latitude-longitude map instead, and "
+                 "compare each colour channel with path tracing; you can give several maps")
       .check(existing_file())
       .excludes(composite)
       .excludes(silhouettes);

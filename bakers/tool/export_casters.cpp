@@ -65,16 +65,17 @@ void add_export_casters(Command export_command) {
   const Command command = export_command.add_subcommand(
       "casters",
       "write the world casters of a baked character for other engines.\nThe formats are a physics asset for "
-      "Unreal as text, a list of capsules for Source 2, or extras of a glTF file. rms and largest compare AO "
-      "on the floor below the rest pose with Nook's own casters: root mean square and largest difference. "
-      "over_none is the mean squared difference as a share of the difference without any casters.");
+      "Unreal as text, a list of capsules for Source 2, or extras of a glTF file. rms and largest are the "
+      "root mean square and the largest difference between AO from the exported casters and AO from Nook's "
+      "own casters, on the floor below the rest pose. over_none is the mean squared difference, divided by "
+      "the difference without any casters.");
   const auto options = std::make_shared<Options>();
   command.add_input("model", options->model, "a model that `nook bake character` wrote").required();
   command.add_option("-o,--output", options->output, "the file to write").required();
   command.add_choice("--format", options->format, formats,
                      "format to write: unreal, source2 or gltf (default)");
   command.add_choice("--radii", options->radii, radii_names,
-                     "for unreal and source2: radii that are fitted to ao (default) or to light");
+                     "for unreal and source2: what the radii are fitted to, ao (default) or light");
   add_common_options(command, options->common);
   command.callback([options] { run(*options); });
 }

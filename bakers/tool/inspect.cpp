@@ -125,10 +125,10 @@ void run(const Options& options) {
 }  // namespace
 
 void add_inspect(Command tool) {
-  const Command command = tool.add_subcommand(
-      "inspect",
-      "show what a .nook or glTF file contains.\nFor a glTF file, lists meshes, skins and "
-      "clips, and which of the meshes a bake takes.");
+  const Command command =
+      tool.add_subcommand("inspect",
+                          "show what a .nook or glTF file contains.\nFor a glTF file, the command lists "
+                          "meshes, skins and clips, and says which meshes a bake would use.");
   const auto options = std::make_shared<Options>();
   command.add_input("file", options->input, "a .nook, .glb or .gltf file").required();
   add_import_options(command, options->reading);
@@ -139,14 +139,14 @@ void add_inspect(Command tool) {
             options->shows_rig = true;
             options->rig = path;
           },
-          "for a glTF file: show how a bake understands the rig. Lists each bone's role, side, limb, partner "
-          "and parent, and counts the edges that automatic poses tear. With a rig file: the same after its "
-          "corrections")
+          "for a glTF file: show how a bake understands the rig. The list contains the role, side, limb, "
+          "partner and parent of each bone, and the number of mesh edges that automatic poses tear. If you "
+          "give a rig file, the list shows the rig after its corrections")
       .expected(0, 1)
       .type_name("[FILE]");
-  command.add_option(
-      "--images", options->images,
-      "with --rig: write rig.png into this folder, the body coloured by the roles of its bones");
+  command.add_option("--images", options->images,
+                     "with --rig: write rig.png into this folder, a picture of the body in which colours "
+                     "show the roles of the bones");
   add_common_options(command, options->common);
   command.callback([options] { run(*options); });
 }

@@ -10,12 +10,12 @@ namespace nook::tool {
 void add_plan(Command tool) {
   const Command command =
       tool.add_subcommand("plan",
-                          "find out which of many assets have to be baked.\nReads a manifest, compares the "
-                          "key of each bake with the key in its output, copies results from the cache, and "
-                          "writes build.ninja and tasks.txt for the rest.");
+                          "find out which of many assets have to be baked.\nThe command reads a manifest, "
+                          "and compares the key of each bake with the key in its output. It copies results "
+                          "from the cache, and writes build.ninja and tasks.txt for the other bakes.");
   const auto options = std::make_shared<plan::PlanOptions>();
   plan::add_plan_options(command, *options);
-  command.add_flag("--dry-run", options->dry_run, "only print what would run and why, and write nothing");
+  command.add_flag("--dry-run", options->dry_run, "write nothing; only print which bakes would run, and why");
   command.callback([options] { plan::make_plan(*options); });
 }
 

@@ -33,7 +33,7 @@ void add_probe_options(Command command, ProbeOptions& options) {
       .capture_default_str();
   command
       .add_option("--sharpness", options.sharpness,
-                  "sharpness of all lobes; 0: chosen by the number of lobes")
+                  "sharpness of all lobes; 0 means that the number of lobes determines it")
       .check(in_range(0.0f, probe::max_sharpness))
       .capture_default_str();
   command.add_flag("--ambient", options.ambient, "add a constant term to the lobes");
@@ -43,8 +43,8 @@ void add_probe_options(Command command, ProbeOptions& options) {
       .capture_default_str();
   command
       .add_option("--constraint", options.constraint,
-                  "bands: lobes reproduce the light's spherical harmonics of bands 0 to 2 exactly; none: "
-                  "plain least squares")
+                  "bands makes the lobes reproduce bands 0 to 2 of the light's spherical harmonics exactly; "
+                  "none is plain least squares")
       .check(one_of(constraint_names))
       .capture_default_str();
   command

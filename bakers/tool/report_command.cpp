@@ -241,11 +241,11 @@ void run_either(const Options& options) {
 
 void add_all_options(const Command& command, ReportAllOptions& all) {
   command.add_option("--all", all.folder,
-                     "a folder: write one page about all baked files in it, worst first, with bakes that "
-                     "failed on top and what changed since the last page; default of -o: nook_report.html in "
-                     "the folder");
+                     "write one page about all baked files in this folder. Failed bakes come first, then the "
+                     "files with the largest errors; the page also says what changed since the last page. "
+                     "Default of -o: nook_report.html in the folder");
   command.add_option("--since", all.before,
-                     "with --all: the page to compare with; default the page that -o replaces");
+                     "with --all: the earlier page to compare with; default: the page that -o replaces");
 }
 
 }  // namespace
@@ -253,10 +253,9 @@ void add_all_options(const Command& command, ReportAllOptions& all) {
 void add_report(Command tool) {
   const Command command = tool.add_subcommand(
       "report",
-      "write one HTML page about a .nook file, for artists, or about all files of a folder (--all).\nThe "
-      "page "
-      "of a file shows pictures of the error beside ray tracing, the worst clips and places, a view that you "
-      "can turn, sizes, and advice.");
+      "write one HTML page for artists about a .nook file, or about all files of a folder (--all).\nThe page "
+      "of a file shows pictures of the error next to ray tracing, the worst clips and places, a 3D view that "
+      "you can turn, sizes, and advice.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("file", o.file, "a .nook file");
@@ -265,16 +264,15 @@ void add_report(Command tool) {
       "the files that it was baked from; docs/guide/artists.md lists them for each kind of file");
   command.add_option("-o,--output", o.output, "the HTML page to write");
   add_all_options(command, o.all);
-  command.add_option("--rays", o.body.rays, "for a character: rays per vertex and pose")
+  command.add_option("--rays", o.body.rays, "for a character: number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   command
       .add_option("--samples-per-clip", o.body.samples_per_clip,
-                  "for a character: number of poses from each clip; default: as many as take about a minute, "
-                  "up to 20")
+                  "for a character: number of poses from each clip, up to 20; default: a number that takes "
+                  "about a minute")
       .check(in_range(1, 100000));
-  command.add_option("--licence", o.licence,
-                     "licence note for what the page shows; it is printed on the page");
+  command.add_option("--licence", o.licence, "licence of what the page shows; the page prints this text");
   add_import_options(command, o.reading);
   add_common_options(command, o.common);
   command.callback([options] {

@@ -29,7 +29,7 @@ bake::ImportOptions with_stored_meshes(bake::ImportOptions reading, const std::f
   if (chooses(reading.meshes)) return reading;
   reading.meshes = bake::stored_meshes(recipe);
   if (chooses(reading.meshes) && !common.quiet)
-    std::fprintf(stderr, "nook: %s: was baked with%s; the same meshes are read now\n",
+    std::fprintf(stderr, "nook: %s was baked with%s; this command reads the same meshes\n",
                  platform::printable(baked.string()).c_str(),
                  platform::printable(options_of(reading.meshes)).c_str());
   return reading;

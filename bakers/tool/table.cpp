@@ -60,7 +60,7 @@ void require_place_of_table(const CommonOptions& options) {
   if (!options.quiet && options.report.empty() && !platform::has_output_stream())
     throw ToolError(
         exit_other,
-        "the output stream is closed, and the result would be lost; open it, or give --report FILE");
+        "the output stream (stdout) is closed, so the result would be lost; open it, or give --report FILE");
 }
 
 void print_table(const CommonOptions& options, const std::string& text, bool in_file) {

@@ -125,16 +125,18 @@ void run(const Options& options) {
 void add_task(Command tool) {
   const Command command = tool.add_subcommand(
       "task",
-      "run one command of nook with a log and repetitions, for farms.\nRepeats a command that fails, unless "
-      "its exit code is 2, 3 or 4: equal arguments and inputs would fail again. Ends with the last exit "
-      "code.");
+      "run one command of nook with a log and retries, for bake farms.\nIf the command fails, it is run "
+      "again, unless its exit code is 2, 3 or 4, because then the same arguments and inputs would fail "
+      "again. The exit code is the exit code of the last run.");
   const auto options = std::make_shared<Options>();
-  command.add_option("command", options->words, "after --: the command and its arguments, such as bake")
+  command
+      .add_option("command", options->words,
+                  "the command to run, such as bake, and its arguments; write -- before them")
       .required();
   command.add_option(
       "--log", options->log,
-      "write all that the command prints into this file, line by line; an older log is replaced");
-  command.add_option("--retries", options->retries, "largest number of repetitions of a command that fails")
+      "write everything that the command prints into this file, line by line; an existing file is replaced");
+  command.add_option("--retries", options->retries, "largest number of retries if the command fails")
       .check(in_range(0, 100))
       .capture_default_str();
   command.callback([options] { run(*options); });

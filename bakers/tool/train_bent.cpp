@@ -60,7 +60,9 @@ void add_train_bent(Command train_command) {
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
-  command.add_option("-o,--output", o.output, "the C++ header to write, shaders/character/specular_numbers.h")
+  command
+      .add_option("-o,--output", o.output,
+                  "the C++ header to write, such as shaders/character/specular_numbers.h")
       .required();
   command.add_option("--max-poses", o.poses, "number of poses, picked evenly over the clips")
       .check(in_range(1, 100000))

@@ -133,9 +133,10 @@ void run(Options& options) {
 }  // namespace
 
 void add_train_nnao(Command train) {
-  const Command command = train.add_subcommand("nnao",
-                                               "train a screen-space network on procedural scenes.\nCtrl-C "
-                                               "stops the training, and the same command continues it.");
+  const Command command =
+      train.add_subcommand("nnao",
+                           "train a screen-space network on procedural scenes.\nCtrl-C stops the training. "
+                           "Run the same command again to continue it.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_option("-o,--output", o.output, "the .nook file to write").required();
@@ -150,26 +151,26 @@ void add_train_nnao(Command train) {
       .type_name("NAME");
   command
       .add_option("--scenes", o.data.scenes,
-                  "number of procedural scenes; a sixth of them is kept for validation")
+                  "number of procedural scenes; a sixth of the scenes is used only for validation")
       .check(in_range(48, 100000));
   command.add_option("--views", o.data.views, "number of cameras over all scenes")
       .check(in_range(16, 1000000));
   command.add_option("--points", o.data.points_per_view, "number of points in each view")
       .check(in_range(1, 100000));
-  command.add_option("--rays", o.data.rays, "rays per point").check(in_range(1, 65536));
+  command.add_option("--rays", o.data.rays, "number of rays per point").check(in_range(1, 65536));
   command.add_option("--epochs", o.training.epochs, "number of passes over the training points")
       .check(in_range(1, 100000));
   command
       .add_option("--time-limit", o.time_limit_s,
-                  "stop after this many seconds of training; the same command continues it")
+                  "stop after this many seconds of training; run the same command again to continue")
       .check(positive_number());
   command
-      .add_option(
-          "--dark-weight", o.training.dark_weight,
-          "for --form horizon: factor w for dark points; each point has the weight 1 + w x (1 - AO)^2")
+      .add_option("--dark-weight", o.training.dark_weight,
+                  "for --form horizon: the factor w that gives dark points more weight; the weight of a "
+                  "point is 1 + w x (1 - AO)^2")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
-  command.add_option("--batch", o.training.batch, "points per training step, a multiple of 16")
+  command.add_option("--batch", o.training.batch, "number of points per training step, a multiple of 16")
       .check(in_range(16, 65536));
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -70,17 +70,18 @@ void add_train_specular(Command train) {
                            "and bent normals of procedural scenes.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("-o,--output", o.output, "the C++ header to write, shaders/nnao/specular_numbers.h")
+  command
+      .add_option("-o,--output", o.output, "the C++ header to write, such as shaders/nnao/specular_numbers.h")
       .required();
   command
       .add_option("--scenes", o.fit.data.scenes,
-                  "number of procedural scenes; a sixth of them is kept for validation")
+                  "number of procedural scenes; a sixth of the scenes is used only for validation")
       .check(in_range(48, 100000));
   command.add_option("--views", o.fit.data.views, "number of cameras over all scenes")
       .check(in_range(48, 1000000));
   command.add_option("--points", o.fit.data.points_per_view, "number of points in each view")
       .check(in_range(1, 100000));
-  command.add_option("--rays", o.fit.rays, "rays per reflection").check(in_range(1, 65536));
+  command.add_option("--rays", o.fit.rays, "number of rays per reflection").check(in_range(1, 65536));
   command.add_option("--steps", o.fit.steps, "number of steps of the fit").check(in_range(1, 1000000));
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -13,7 +13,7 @@ from write_gltf import column, Gltf, U16  # noqa: E402
 
 SMALL = ["--preset", "draft", "--auto-poses", "8", "--samples-per-clip", "4", "--rays", "16", "--steps", "20", "--spheres", "8",
          "--key-points", "12"]
-SAID = 'was baked with --without "copy"; the same meshes are read now'
+SAID = 'was baked with --without "copy"; this command reads the same meshes'
 
 
 def with_copy(path):

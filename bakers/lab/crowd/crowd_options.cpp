@@ -33,7 +33,7 @@ DebugView debug_view(const std::vector<std::string>& names, std::uint32_t bodies
 }  // namespace
 
 bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
-  CLI::App app("Measures the crowd of samples/crowd: draws it, and compares it with ray tracing.");
+  CLI::App app("Draws the crowd of samples/crowd, and compares the pictures with ray tracing.");
   std::string size = "1280x720", tier = "best", screen_space = "on";
   std::vector<std::string> debug;
   std::uint32_t bodies = 1;
@@ -61,8 +61,7 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--tier", tier, "highest OpenGL tier: 33, 43 or best")
       ->check(CLI::IsMember({"33", "43", "best"}));
   app.add_option("--screen-space", screen_space,
-                 "on or off: AO on the floor from the screen pass and from the characters, beside the AO on "
-                 "the characters")
+                 "on or off: also draw AO on the floor, from the screen pass and from the characters")
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--light", o.lights,
                  "probe (.nook) or environment map (.hdr, .exr). The first one lights the frames, and each "
@@ -75,8 +74,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--record", o.record,
                  "folder to record frames of the screen-space pass into, as frame_0000.nook and so on");
   app.add_flag("--measure-world", o.measure_world,
-               "compare the world pass of the last frame with a pass that evaluates every caster at every "
-               "pixel; slow without a GPU");
+               "compare the world pass in the last frame with a slow reference that evaluates every caster "
+               "at every pixel");
   app.add_option("--debug", debug,
                  "debug views to draw over the picture, separated by commas: spheres, key-points, links, "
                  "levels, error")
@@ -85,12 +84,12 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--debug-bodies", bodies,
-                 "number of bodies that debug views of spheres, key points and errors cover, nearest to the "
-                 "camera first")
+                 "number of bodies for which debug views show spheres, key points and errors; the bodies "
+                 "nearest to the camera are chosen")
       ->check(CLI::Range(1, 10000));
   app.add_option(
          "--lod-error", o.lod_error,
-         "error that a level of detail may have at 10 m, as root mean square of AO; 0: always full detail")
+         "largest error of a level of detail at 10 m, as root mean square of AO; 0 means always full detail")
       ->check(CLI::Range(0.0f, 1.0f));
   app.add_option("--seed", o.seed, "seed of positions, clips and rays");
   app.add_option("--cache", o.cache, "folder that caches baked characters");

@@ -35,13 +35,14 @@ int parse(int argc, char** argv, Options& o) {
   app.add_option("model", o.model, "model of the built-in character, a .nook file")
       ->check(CLI::ExistingFile)
       ->required();
-  app.add_option("--character", o.character,
-                 "the built-in character as mannequin writes it; default: make it")
+  app.add_option(
+         "--character", o.character,
+         "the built-in character as a .glb file, which the program mannequin writes; default: generate it")
       ->check(CLI::ExistingFile);
   app.add_option("--scene", o.scene, "what moves")->check(CLI::IsMember(motion_scene_names()));
   app.add_option("--frames", o.frames, "number of pictures in one loop")->check(CLI::Range(1, 1000));
   app.add_option("--rays", o.rays,
-                 "paths for each point of the ray-traced pictures; 0 writes no such pictures")
+                 "number of paths for each point in the ray-traced pictures; 0 means no ray-traced pictures")
       ->check(CLI::Range(0, 65536));
   app.add_option("--width", o.width_px, "width of a picture in pixels")->check(CLI::Range(16, 4096));
   app.add_option(

@@ -110,8 +110,8 @@ int compare_two(const Options& options) {
   const CostReport after = report_of(options, options.after, first_lines(options));
   if (before.driver != after.driver) {
     std::printf(
-        "SKIPPED: the old numbers come from %s, the new ones from %s; numbers of two compilers cannot be "
-        "compared\n",
+        "SKIPPED: the old numbers come from %s, the new ones from %s; numbers from different compilers "
+        "cannot be compared\n",
         before.driver.c_str(), after.driver.c_str());
     return exit_skipped;
   }
@@ -122,11 +122,11 @@ int compare_two(const Options& options) {
               comparison.above_limit);
   // A stored report must list the same shaders as the tree. Two trees may have different shaders.
   const bool of_a_report = !fs::is_directory(options.before) && options.only.empty();
-  if (of_a_report) print_names("in one of both only", comparison.unmatched);
+  if (of_a_report) print_names("only in one of the two", comparison.unmatched);
   if (comparison.above_limit.empty() && (!of_a_report || comparison.unmatched.empty())) return exit_done;
   if (of_a_report)
     std::fprintf(stderr,
-                 "\nif that is meant, write new numbers: bakers/lab/tables/gpu_cost.py --write, or "
+                 "\nif you intended this, write new numbers: bakers/lab/tables/gpu_cost.py --write, or "
                  "nook_gpu_cost --report %s\n",
                  options.before.c_str());
   return exit_failed;
@@ -147,12 +147,11 @@ int without_radv(const char* what) {
 int run(int argc, char** argv) {
   Options options;
   CLI::App tool(
-      "Counts the instructions of every shader as compiled for GPUs that are not there, by RADV's null "
-      "device.\n"
-      "Exit codes: 0 done, 77 no RADV or another version of it than the old numbers', 2 bad arguments, 1 "
-      "anything else.",
+      "Compiles every shader with the RADV driver for GPUs that need not be present, and counts the "
+      "instructions.\nExit codes: 0 done, 77 RADV is missing or differs from the version that gave the old "
+      "numbers, 2 bad arguments, 1 anything else.",
       "nook_gpu_cost");
-  tool.add_option("--root", options.root, "folder of the shaders")->check(CLI::ExistingDirectory);
+  tool.add_option("--root", options.root, "folder that contains the shaders")->check(CLI::ExistingDirectory);
   tool.add_option("--family", options.families, "GPU families to compile for, by their names in RADV")
       ->delimiter(',')
       ->capture_default_str()
@@ -164,17 +163,19 @@ int run(int argc, char** argv) {
   tool.add_option("--report", options.report, "write the numbers to this JSON file");
   tool.add_option("--dump", options.dump,
                   "write Vulkan GLSL and disassembly to this folder, and print the loops");
-  CLI::App* compare = tool.add_subcommand("compare", "print the ratio of the cycles of two trees or reports");
+  CLI::App* compare =
+      tool.add_subcommand("compare", "print the ratio of the cycles between two source trees or reports");
   compare->fallthrough();
-  compare->add_option("old", options.before, "folder of a tree, or report")
+  compare->add_option("old", options.before, "old numbers: the folder of a source tree, or a report file")
       ->required()
       ->check(CLI::ExistingPath);
   compare
       ->add_option("new", options.after,
-                   "folder of a tree, or report; --define and --buffers-as-textures are for this one")
+                   "new numbers: the folder of a source tree, or a report file; --define and "
+                   "--buffers-as-textures apply only to this tree")
       ->required()
       ->check(CLI::ExistingPath);
-  compare->add_option("--limit", options.limit, "exit with an error if a ratio is above this");
+  compare->add_option("--limit", options.limit, "exit with an error if a ratio is above this number");
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

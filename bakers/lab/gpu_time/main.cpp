@@ -87,8 +87,8 @@ int time_all(const Options& options) {
 int run(int argc, char** argv) {
   Options options;
   CLI::App tool(
-      "Times Nook's passes on the GPU of an OpenGL context, in milliseconds between two of its time stamps.\n"
-      "Exit codes: 0 done, 2 bad arguments, 3 anything else.",
+      "Measures the times of Nook's passes on the GPU, in milliseconds between two OpenGL time stamps.\nExit "
+      "codes: 0 done, 2 bad arguments, 3 anything else.",
       "nook_gpu_time");
   tool.add_option("--context", options.context, std::string("OpenGL context: ") + platform::context_kinds());
   tool.add_option("--width", options.width, "width in pixels")
@@ -97,16 +97,18 @@ int run(int argc, char** argv) {
   tool.add_option("--height", options.height, "height in pixels")
       ->check(CLI::Range(16, 16384))
       ->capture_default_str();
-  tool.add_option("--batches", options.batches, "number of batches; the result is their median")
+  tool.add_option("--batches", options.batches, "number of batches; the result is the median of their times")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   tool.add_option("--batch-ms", options.batch_ms, "length of a batch in milliseconds")
       ->check(CLI::Range(0.0, 10000.0))
       ->capture_default_str();
-  tool.add_option("--model", options.model,
-                  "character model; also time characters and the world pass with it")
+  tool.add_option(
+          "--model", options.model,
+          "character model, a .nook file; with this option, characters and the world pass are measured too")
       ->check(CLI::ExistingFile);
-  tool.add_option("--material", options.materials, "material files to time")->check(CLI::ExistingFile);
+  tool.add_option("--material", options.materials, "materials to measure, .nook files")
+      ->check(CLI::ExistingFile);
   tool.add_option("--only", options.only, "measure only rows whose name contains this text");
   tool.add_option("--report", options.report, "write the numbers to this JSON file");
   try {

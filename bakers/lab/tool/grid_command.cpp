@@ -108,16 +108,17 @@ Json evaluate(const Options& options) {
 void add_evaluate_grid(Command evaluate_command) {
   const Command command =
       evaluate_command.add_subcommand("grid",
-                                      "compare ways to look up a grid of light probes near walls.\nThe grid "
-                                      "is in built-in closed rooms, or in a scene.");
+                                      "compare methods of interpolating a grid of light probes near "
+                                      "walls.\nThe grid lies in built-in closed rooms, or in a scene.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("--scene", o.scene, "a scene in place of the built-in rooms, a .glb or .gltf file");
+  command.add_input("--scene", o.scene,
+                    "measure in this scene, a .glb or .gltf file, instead of the built-in rooms");
   command.add_input("--light", o.light, "for a scene: the environment map around it");
   command
       .add_option_function(
           "--grid", [&o](const std::string& text) { o.counts = parse_grid_counts(text); },
-          "number of probes along x, y and z; default 6x2x5, which puts eight into each room")
+          "number of probes along x, y and z; default 6x2x5, which places eight probes in each built-in room")
       .type_name("AxBxC");
   command
       .add_option_function(
@@ -126,18 +127,19 @@ void add_evaluate_grid(Command evaluate_command) {
       .type_name("BOX");
   command
       .add_option("--points", o.settings.points,
-                  "number of random points on surfaces; as many lie in the open")
+                  "number of random points on surfaces; the same number of points is measured in open space")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
-  command.add_option("--paths", o.settings.paths, "paths traced from each point")
+  command.add_option("--paths", o.settings.paths, "number of paths to trace from each point")
       .check(in_range(2u, 1u << 24))
       .capture_default_str();
-  command.add_option("--samples", o.settings.samples, "paths traced from each probe")
+  command.add_option("--samples", o.settings.samples, "number of paths to trace from each probe")
       .check(in_range(64u, 1u << 30))
       .capture_default_str();
   command
-      .add_option("--training-paths", o.settings.training_paths,
-                  "paths traced for each place that walls and coefficients are fitted to")
+      .add_option(
+          "--training-paths", o.settings.training_paths,
+          "number of paths to trace from each point on surfaces to which walls and coefficients are fitted")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
   command
@@ -146,10 +148,11 @@ void add_evaluate_grid(Command evaluate_command) {
       .check(one_of(bake::direct_names()))
       .capture_default_str();
   command.add_option("--picture", o.picture,
-                     "for the built-in rooms: write one .png of the light on their floor, path traced, "
-                     "trilinear and with walls");
+                     "for the built-in rooms: write one .png that shows the light on the floor three times: "
+                     "path traced, interpolated trilinearly, and interpolated with walls");
   add_import_options(command, o.reading);
-  command.add_flag("--no-textures", o.no_textures, "use colour factors in place of textures");
+  command.add_flag("--no-textures", o.no_textures,
+                   "use the colour factors of materials instead of their textures");
   add_common_options(command, o.common);
   command.callback([options] {
     const CommandFiles files{

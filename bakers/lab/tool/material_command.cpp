@@ -30,22 +30,26 @@ class Peers : public tool::MaterialPeers {
  public:
   void add_options(Command command) override {
     command
-        .add_option("--methods", methods_,
-                    "methods to compare with the file, separated by commas: n-svd, cta, k-cta-2, k-cta-3 and "
-                    "k-cta-4 at the file's ranks; n-svd-filled and pca at the size of the whole file; pbr, "
-                    "material maps with parallax; neural, one small network and one of the size of the whole "
-                    "file, which train for minutes; or none. Default: all but neural")
+        .add_option(
+            "--methods", methods_,
+            "methods to compare with the file, separated by commas: n-svd, cta, k-cta-2, k-cta-3 and k-cta-4 "
+            "have the ranks of the file; n-svd-filled and pca have the size of the whole file; pbr uses "
+            "material maps with parallax; neural trains a small network and one of the size of the whole "
+            "file, which takes minutes; none compares with nothing. Default: all but neural")
         .delimiter(',')
         .check(tool::one_of(choices()))
         .type_name("NAME,...");
-    command.add_option("--votf-refits", votf_refits_, "--votf-refits of bake material, for the other methods")
+    command
+        .add_option("--votf-refits", votf_refits_,
+                    "number of additional fits of the visibility for the other methods, as in --votf-refits "
+                    "of bake material")
         .check(tool::in_range(0, 16))
         .capture_default_str();
     command.add_flag("--compare-seeding", seeding_,
-                     "compare CTA and K-CTA with first clusters by directions and by values");
+                     "compare CTA and K-CTA when the first clusters are chosen by directions and by values");
     command
         .add_option("--sweep", sweep_,
-                    "total view ranks at which all methods are measured; --images plots them")
+                    "measure all methods at these total view ranks; --images plots the results")
         .delimiter(',');
   }
 

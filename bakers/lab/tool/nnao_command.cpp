@@ -90,9 +90,9 @@ void run(EvaluateNnaoOptions& options) {
 void add_evaluate_nnao(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "nnao",
-      "compare the screen-space pass and other methods with ray tracing.\nThe "
-      "other methods are SSAO, SSAO+, HBAO, GTAO, GTAO with a visibility "
-      "bitmask, XeGTAO, and what N8AO, Godot, VTK, QGIS and Filament ship.");
+      "compare the screen-space pass and other methods with ray tracing.\nThe other methods are SSAO, SSAO+, "
+      "HBAO, GTAO, GTAO with a visibility bitmask, XeGTAO, and the methods that N8AO, Godot, VTK, QGIS and "
+      "Filament contain.");
   const auto options = std::make_shared<EvaluateNnaoOptions>();
   add_options(command, *options);
   command.callback([options] { run(*options); });

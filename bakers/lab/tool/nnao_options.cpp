@@ -71,7 +71,8 @@ void check_options(const EvaluateNnaoOptions& options) {
         "evaluate nnao: --temporal needs scenes or --mover. It cannot be combined with --bent-normals, "
         "--methods, --network or --ratio, and with --images only if --mover is given");
   if (!options.views.empty() && !options.scenes.files.empty())
-    throw ToolError(exit_bad_arguments, "evaluate nnao: --views brings its own scenes; leave out the files");
+    throw ToolError(exit_bad_arguments,
+                    "evaluate nnao: --views already lists the scenes; leave out the files");
 }
 
 void add_options(Command command, EvaluateNnaoOptions& options) {
@@ -79,25 +80,28 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
       "scene", options.scenes.files,
       "scenes in metres, y up, .glb or .gltf files; with more than one, the means are reported too");
   add_import_options(command, options.scenes.reading);
-  command.add_input("--views", options.views,
-                    "list of scenes with their cameras in place of files, such as docs/nnao_views.json");
+  command.add_input(
+      "--views", options.views,
+      "list of scenes and their cameras, such as docs/nnao_views.json, to measure instead of files");
   command.add_option("--folder", options.folder,
                      "folder with the scenes of --views, each as NAME.glb; default: the current folder");
   command
-      .add_option("--sources", options.sources, "measure only these sources of --views, separated by commas")
+      .add_option("--sources", options.sources,
+                  "measure only scenes from these sources in the list of --views, separated by commas")
       .delimiter(',');
   command.add_flag("--thin", options.scenes.thin,
                    "also measure a built-in scene of thin objects, called thin; means leave it out");
   command
       .add_input("--frame", options.frames,
-                 "frame that nook_nnao_record wrote, replayed in place of scenes and compared with the "
-                 "recorded AO and the oracle; you can repeat the option")
+                 "recorded frame, a file that nook_nnao_record wrote, to draw again instead of scenes and to "
+                 "compare with the recorded AO and the oracle; you can repeat the option")
       .type_name("FILE.nook");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
   command
       .add_option("--tune", options.tune,
-                  "tune one baseline, or all, on training scenes, and print the results in place of errors")
+                  "tune one baseline method, or all, on training scenes, and print the tuned parameters "
+                  "instead of errors")
       .check(one_of(baselines));
   command
       .add_option("--camera", options.scenes.cameras,
@@ -107,7 +111,7 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
       .type_name("CAMERA");
   command
       .add_option("--cameras", options.placed_cameras,
-                  "number of cameras to place in a scene for which none is given")
+                  "number of cameras to place in each scene for which you give none")
       .check(in_range(1, 1000))
       .capture_default_str();
   command
@@ -147,41 +151,46 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
   for (const Oracle oracle : all_oracles) methods.push_back(oracle_name(oracle));
   for (const std::string& name : frame_method_names()) methods.push_back(name);
   command
-      .add_option("--methods", options.methods,
-                  "measure only these, each NAME or NAME:TAPS, separated by commas; default: all but the "
-                  "slow oracle and oracle_bitmask; with --frame: replayed, fast, default, best and oracle")
+      .add_option(
+          "--methods", options.methods,
+          "measure only these methods, each as NAME or NAME:TAPS, separated by commas; default: all but the "
+          "slow oracle and oracle_bitmask; with --frame: replayed, fast, default, best and oracle")
       .delimiter(',')
       .check([methods](const std::string& text) { return one_of(methods)(text.substr(0, text.find(':'))); });
   command
       .add_option("--ratio", options.ratios,
-                  "also report the ratio of two methods' errors with its bounds, as METHOD:TAPS,METHOD:TAPS; "
-                  "you can repeat the option")
+                  "also report the ratio between the errors of two methods, with its bounds; give "
+                  "METHOD:TAPS,METHOD:TAPS; you can repeat the option")
       .type_name("RATIO");
   command.add_flag("--bent-normals", options.bent,
-                   "measure bent normals and specular occlusion in place of AO, at each 16th pixel");
-  command.add_flag("--temporal", options.temporal,
-                   "measure means over the frames of a moving camera, not single frames");
+                   "measure bent normals and specular occlusion instead of AO, at every 16th pixel");
+  command.add_flag(
+      "--temporal", options.temporal,
+      "measure AO that is averaged over the frames of a moving camera, instead of AO of single frames");
   command
       .add_option("--path-step", options.truth.path.step_px,
-                  "with --temporal: how many pixels per frame a surface at the median depth moves; 0: the "
-                  "camera stands still")
+                  "with --temporal: number of pixels per frame by which a surface at the median depth moves; "
+                  "0 means that the camera stands still")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
   command
       .add_input("--mover", options.movers,
-                 "with --temporal: a character that walks in front of a wall, in place of scenes, a .glb or "
-                 ".gltf file with clips; you can repeat the option")
+                 "with --temporal: measure this character, which walks in front of a wall, instead of "
+                 "scenes; a .glb or .gltf file with clips; you can repeat the option")
       .type_name("FILE");
   command.add_option("--clip", options.clip,
-                     "clip of --mover; default: the first with walk in its name, or else the first");
-  command.add_option("--walk-speed", options.walk_speed, "speed of --mover in metres per second")
+                     "clip that the character of --mover plays; default: the first clip with walk in its "
+                     "name, or else the first clip");
+  command.add_option("--walk-speed", options.walk_speed, "walking speed of --mover in metres per second")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
-  command.add_flag("!--no-raw", options.raw, "measure each method only with its own blur");
+  command.add_flag("!--no-raw", options.raw,
+                   "measure each method only with the blur that belongs to it, not without blur");
   command.add_input("--network", options.network,
                     "also measure this network, a file that `nook train nnao` wrote");
-  command.add_option("--images", options.images,
-                     "write sheets of each view, and pictures of the networks, into this folder");
+  command.add_option(
+      "--images", options.images,
+      "write a sheet of pictures for each view, and pictures of the networks, into this folder");
   command.add_option("--markdown", options.markdown, "write the tables of docs/lab/nnao.md to this file");
   add_common_options(command, options.common);
 }

@@ -16,8 +16,8 @@ class Peers : public tool::ProbePeers {
  public:
   void add_options(tool::Command command) override {
     command.add_flag("--glossy", glossy_,
-                     "for maps: compare the lobes on random glossy surfaces with prefiltered cube maps, in "
-                     "place of the forms of fitting");
+                     "for maps: compare the lobes with prefiltered cube maps on random glossy surfaces, "
+                     "instead of comparing methods of fitting");
     command
         .add_option("--surfaces", surfaces_.surfaces, "with --glossy: number of random surfaces of each kind")
         .check(tool::in_range(1u, 1u << 20))

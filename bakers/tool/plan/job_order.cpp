@@ -32,7 +32,7 @@ void add_writer(const Manifest& m, const std::vector<Job>& jobs, std::size_t job
   const Job &one = jobs[known->second], &other = jobs[job];
   refuse(m, other.place + ".output",
          one.source + " (" + one.kind + ") and " + other.source + " (" + other.kind +
-             ") would have one output, " + file +
+             ") would have the same output, " + file +
              "; use {dir} and {stem} in the pattern, or skip one of them");
 }
 

@@ -189,7 +189,7 @@ std::vector<Job> jobs_of(const Manifest& manifest, FileTree& tree) {
   Builder builder{manifest, {}};
   for (const Asset& asset : assets) add_jobs(builder, asset);
   if (builder.jobs.empty())
-    refuse(manifest, "rules", "every file is skipped, so nothing is left to bake; change the rules");
+    refuse(manifest, "rules", "the rules skip every file, so nothing is left to bake; change the rules");
   return ordered_jobs(manifest, std::move(builder.jobs));
 }
 

@@ -169,23 +169,25 @@ void add_plan_options(Command command, PlanOptions& o) {
       "--build", o.build,
       "folder for build.ninja, tasks.txt, keys and logs; default nook-build beside the manifest");
   command.add_option("--cache", o.cache,
-                     "the folder of bake --cache: results that it contains are copied now, and bakes store "
-                     "their results in it; default NOOK_CACHE, if it is set");
+                     "the folder of bake --cache: the plan copies the results that it contains, and bakes "
+                     "store their results in it; default: the environment variable NOOK_CACHE, if set");
   command
       .add_option("--isa", o.isa,
                   "the instruction set of all bakes: x86-64-v2, x86-64-v3 (default on x86-64) or native; "
-                  "another one gives other keys")
+                  "another instruction set gives other keys")
       .check(one_of({"native", "x86-64-v2", "x86-64-v3"}));
-  command.add_option("--threads", o.threads, "number of assets that are read at a time; 0: one per core")
+  command
+      .add_option("--threads", o.threads,
+                  "number of assets that are read at the same time; 0 means one per core")
       .check(in_range(0, 1024))
       .capture_default_str();
   command
       .add_option("--bake-threads", o.bake_threads,
-                  "threads of each bake; 0: one thread in tasks.txt, and under Ninja the number of cores "
-                  "divided by the number of bakes to run")
+                  "number of threads of each bake; 0 means one thread in tasks.txt and, under Ninja, the "
+                  "number of cores divided by the number of bakes to run")
       .check(in_range(0, 1024))
       .capture_default_str();
-  command.add_option("--report", o.report, "write the state of every bake as JSON to this file");
+  command.add_option("--report", o.report, "write a JSON file with the state of every bake");
   command.add_flag("--quiet", o.quiet, "print errors only");
 }
 

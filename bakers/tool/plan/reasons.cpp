@@ -68,8 +68,9 @@ double typical_s(const Job& job) {
 
 std::string reason_of(const Job& job, const std::string& identity, const std::string& there, bool exists,
                       bool was_there) {
-  if (!exists) return was_there ? "its output is gone" : "new";
-  if (there.empty()) return "the output has no key: an earlier version baked it, or it is not a baked file";
+  if (!exists) return was_there ? "its output no longer exists" : "new";
+  if (there.empty())
+    return "the output has no key, because an earlier version baked it or it is not a baked file";
   const Json old = Json::parse(there, nullptr, false), now = Json::parse(identity, nullptr, false);
   if (!old.is_object() || !now.is_object()) return "the key of its output is damaged";
   std::string reasons;

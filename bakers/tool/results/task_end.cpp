@@ -47,7 +47,7 @@ std::optional<std::string> failure_of(const AssetFiles& files, const std::option
     return "exit code " + std::to_string(*end->exit_code) + ": " + end->words;
   const bool has_no_end = end && !end->exit_code;
   if (!files.model.empty() && !(has_no_end && end->is_of_task)) return std::nullopt;
-  if (end && !has_no_end) return "its log ends without an error, but the model is missing";
+  if (end && !has_no_end) return "its log ends without an error, but there is no model";
   if (has_no_end)
     return "its log is incomplete: the bake still runs, or was killed" +
            (end->words.empty() ? "" : "; last line: " + end->words);

@@ -133,7 +133,7 @@ TEST_CASE("a build bakes what changed and nothing else") {
   // A new preset bakes the body, and what starts from it.
   fs::remove(project.folder.path(lod));
   const ToolRun gone = project.build();
-  CHECK(has(gone.out, lod + ": its output is gone"));
+  CHECK(has(gone.out, lod + ": its output no longer exists"));
   CHECK(baked_by(project, gone) == Names{lod});
 }
 
@@ -296,7 +296,7 @@ TEST_CASE("a manifest with a fault is refused at its place, before anything runs
   refused(R"({"rules": [{"match": "*.glb", "output": "{stem}.bin"}]})", {"rules[0].output", ".nook"});
   refused(R"({"rules": [{"match": "*.glb", "output": "{name}.nook"}]})", {"{dir} and {stem}"});
   refused(R"({"rules": [{"match": "**/*.glb", "output": "{stem}.nook"}]})",
-          {"a.glb", "b/a.glb", "one output", "a.nook"});
+          {"a.glb", "b/a.glb", "the same output", "a.nook"});
   refused(R"({"rules": [{"match": "*.glb", "options": {"prest": "draft"}}]})",
           {"rules[0].options.prest", "nook bake character --help"});
   refused(R"({"rules": [{"match": "*.glb", "options": {"rays": 0}}]})", {"rules[0].options.rays"});
@@ -308,7 +308,7 @@ TEST_CASE("a manifest with a fault is refused at its place, before anything runs
           {"outside the manifest's folder"});
   refused(R"({"rules": [{"match": "*.glb", "lods": {"match": "{stem}_LOD*.glb"}}]})",
           {"matches no file of any"});
-  refused(R"({"rules": [{"match": "*.glb", "skip": true}]})", {"every file is skipped"});
+  refused(R"({"rules": [{"match": "*.glb", "skip": true}]})", {"the rules skip every file"});
   refused(R"({"rules": [{"match": "*.glb", "output": "x\n.nook"}]})", {"line break"});
   // A body that its own LOD is baked from.
   refused(
