@@ -70,7 +70,9 @@ unsigned Context::framebuffer() {
     }
     gl_->BindRenderbuffer(GL_RENDERBUFFER, 0);
     if (gl_->CheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-      throw std::runtime_error("Context::framebuffer: RGBA8 with a 24-bit depth buffer is not complete here");
+      throw std::runtime_error(
+          "Context::framebuffer: this OpenGL cannot draw into an RGBA8 framebuffer with a 24-bit depth "
+          "buffer; use another driver");
   }
   gl_->BindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
   return framebuffer_;

@@ -58,7 +58,7 @@ class EglContext final : public Context {
   void make_current() override {
     if (!eglBindAPI(api_of(es_)) || !eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_))
       throw std::runtime_error(
-          "Context::make_current: eglMakeCurrent failed; EGL_KHR_surfaceless_context is needed");
+          "Context::make_current: eglMakeCurrent failed; use a driver with EGL_KHR_surfaceless_context");
   }
   void clear_current() override { eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT); }
   bool is_es() const override { return es_; }

@@ -28,18 +28,19 @@ std::string take_attributes(int descriptor, const std::filesystem::path& old, co
   std::string note;
   const bool group = fchown(descriptor, uid_t(-1), there.st_gid) == 0;
   if (fchown(descriptor, there.st_uid, gid_t(-1)) != 0)
-    note = "it becomes yours, because you may not make files for its owner, user " +
-           std::to_string(there.st_uid);
+    note =
+        "the new file belongs to you, because you may not create files for the owner of the old file, user " +
+        std::to_string(there.st_uid);
   mode_t mode = there.st_mode & 0777;
   // If the group could not be set, the new file has another group. This group must not get the permissions of
   // the old group.
   if (!group) mode = (mode & 0707) | ((mode & 07) << 3 & mode);
   if (fchmod(descriptor, mode) != 0)
-    note += note.empty() ? "its mode is not kept" : ", and its mode is not kept";
+    note += note.empty() ? "its mode is not kept" : ", and it has another mode than the old file";
   copy_extended(descriptor, old);
   if (there.st_nlink > 1)
     note += (note.empty() ? "" : "; ") + ("it has " + std::to_string(there.st_nlink) +
-                                          " names (hard links); the other ones keep the old file");
+                                          " names (hard links); the other names keep the old file");
   return note;
 }
 

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 constexpr int max_links = 40;  // the same limit as on Linux
 
 [[noreturn]] void fail(const fs::path& target, const std::string& why,
-                       const char* cure = "choose a place that exists and can be written") {
+                       const char* cure = "choose an existing folder that you can write to") {
   throw std::runtime_error(target.string() + ": cannot be written (" + why + "); " + cure);
 }
 
@@ -127,16 +127,18 @@ void OutputFile::open_part() {
     const int error = errno;
     if (exists && (error == EACCES || error == EROFS))
       fail(named_,
-           std::string(std::strerror(error)) + ": the new file is made beside the old one, in " +
+           std::string(std::strerror(error)) +
+               ": the new file has to be created next to the old one, in the folder " +
                folder_of(target_).string(),
-           "allow that, or choose another place");
+           "make that folder writable, or choose another place");
     fail_errno(named_, error);
   }
   part_ = part.path;
   descriptor_ = part.descriptor;
   std::string note = exists ? take_attributes(descriptor_, target_, there) : "";
   if (is_link)
-    note = "the link is replaced by a file, and what it points to stays: " + followed(named_).string();
+    note = "the link is replaced by a file, and the file that it points to stays unchanged: " +
+           followed(named_).string();
   if (!note.empty() && events_.replaces) events_.replaces(named_.string() + ": " + note);
 }
 

@@ -29,8 +29,8 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   app.add_option("--tile", o.tile_m, "side of one tile of the material on the shapes, in metres")
       ->check(CLI::Range(0.01f, 1.0f));
   app.add_option("--fetches", o.fetches,
-                 "fetches of each mode along the longer side of a pixel; more keep the picture sharp at "
-                 "grazing angles. 0: one fetch, at the mipmap level of the longer side")
+                 "number of fetches of each mode along the longer side of a pixel; more fetches keep the "
+                 "picture sharp at grazing angles. 0 means one fetch, at the mipmap level of the longer side")
       ->check(CLI::Range(0, int(NOOK_MATERIAL_MAX_FETCHES)));
   app.add_flag("--one-sided", o.is_one_sided,
                "do not draw the insides of the shapes, which are visible through holes");

@@ -416,7 +416,7 @@ class Arguments(unittest.TestCase):
         scene = nook.Scene()
         with nook.bake_character(self.character, **SMALL) as job:
             for one, said in ((scene, "models and poses"), (scene.add_instance(self.model), "its scene"), (job, r"wait\(\)"),
-                              (nook.ProbeFit(), r"solve\(\)"), (nook.Context(), "makes its own")):
+                              (nook.ProbeFit(), r"solve\(\)"), (nook.Context(), "must make its own")):
                 for function in (pickle.dumps, copy.copy, copy.deepcopy, lambda x: copy.deepcopy([x])):
                     with self.assertRaisesRegex(TypeError, f"cannot be pickled or copied: .*{said}"):
                         function(one)
@@ -541,7 +541,7 @@ class Arguments(unittest.TestCase):
     def test_instances_and_spheres_of_two_scenes_do_not_mix(self):
         with nook.Scene() as one, nook.Scene() as two:
             a, b, other = one.add_instance(self.model), two.add_instance(self.model), one.add_instance(self.model)
-            with self.assertRaisesRegex(ValueError, "caster: it is in another scene"):
+            with self.assertRaisesRegex(ValueError, "caster: the instance is in another scene"):
                 a.link(b)
             with self.assertRaisesRegex(TypeError, "caster: need a nook.Instance, got int"):
                 a.link(other.number)

@@ -118,9 +118,9 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
       .add_option("--radius", options.scenes.radii, "radius of the AO in metres, as [SCENE:]R; default 0.5")
       .type_name("RADIUS");
   command
-      .add_option(
-          "--max-radius-px", options.max_radius_px,
-          "largest radius in pixels; every method shrinks a radius that covers more; 0: half the height")
+      .add_option("--max-radius-px", options.max_radius_px,
+                  "largest radius in pixels; every method shrinks a radius that covers more pixels. 0 means "
+                  "half the height of the picture")
       .check(in_range(0.0, 1e4));
   command
       .add_option(

@@ -6,7 +6,7 @@ bl_info = {
     "version": (1, 0, 0),
     "blender": (3, 4, 0),
     "location": "3D view > sidebar > Nook",
-    "description": "Bakes dynamic ambient occlusion of a rigged character and shows it as a colour attribute over the timeline",
+    "description": "Bakes dynamic ambient occlusion of a rigged character, and shows it as a colour attribute while the timeline plays",
     "category": "Bake",
 }
 

@@ -54,7 +54,7 @@ def after_load(*_):
     for rig, was_shown in baked_rigs():
         try:
             files = shown.existing_files(rig)
-            reason = refusal(files) if was_shown else "it was switched off when the file was saved; press Show and save again"
+            reason = refusal(files) if was_shown else "the display was switched off when the file was saved; press Show and save the file again"
             if reason is None:
                 folders.confirm(str(files.folder))
                 shown.show(bpy.context, rig)

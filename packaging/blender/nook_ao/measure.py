@@ -225,5 +225,5 @@ def after_bake(context, entry, actions):
         if apart > NEAR * size:
             why.append(f"vertices are up to {apart:.3g} m apart")
     if any(shear_of(still.pose) > SHEAR for still in stills):
-        why.append("the rig shears or stretches its bones, which a model does not learn; apply its scale, or scale evenly")
+        why.append("the rig shears or stretches its bones, which a model cannot represent; apply the scale of the rig, or scale evenly")
     yield text_of(errors, stills, why), why

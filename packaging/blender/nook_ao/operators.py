@@ -59,16 +59,16 @@ class NOOK_OT_confirm(bpy.types.Operator):
                                  options={"SKIP_SAVE", "HIDDEN"})
 
     # What Nook will do with the folder. The dialog shows this to the user.
-    USES = {"bake": "Nook will write files by the name of the armature there:",
-            "show": "Nook will load the files of the bake from there:",
-            "report": "Nook will load the bake from there, and write the report there:", "none": "Nook may read and write there:"}
+    USES = {"bake": "Nook will write files named after the armature into this folder:",
+            "show": "Nook will load the files of the bake from this folder:",
+            "report": "Nook will load the bake from this folder, and write the report into it:", "none": "Nook may read and write in this folder:"}
 
     def invoke(self, context, _event):
         return context.window_manager.invoke_props_dialog(self, width=600)
 
     def draw(self, _context):
         column = self.layout.column()
-        column.label(text="This .blend file names a folder, which you have not chosen since it was opened.", icon="QUESTION")
+        column.label(text="The folder is stored in this .blend file; you have not chosen it since you opened the file.", icon="QUESTION")
         column.label(text=self.USES[self.then])
         text = folders.printable(self.folder)
         for at in range(0, len(text), 80):

@@ -27,12 +27,12 @@ class NookPart(bpy.types.PropertyGroup):
 class NookCharacter(bpy.types.PropertyGroup):
     rig: bpy.props.PointerProperty(type=bpy.types.Object)
     parts: bpy.props.CollectionProperty(type=NookPart)
-    key: bpy.props.StringProperty(description="Whose files these are")
+    key: bpy.props.StringProperty(description="The armature that these files belong to")
     folder: bpy.props.StringProperty(subtype="DIR_PATH")
-    relative: bpy.props.StringProperty(description="The folder as seen from that of the .blend, where it is inside")
+    relative: bpy.props.StringProperty(description="The path of the folder relative to the folder of the .blend file, if it lies inside")
     stem: bpy.props.StringProperty(description="The name of the files without its ending")
     is_shown: bpy.props.BoolProperty()
-    says: bpy.props.StringProperty(description="What was measured after the bake, line by line")
+    says: bpy.props.StringProperty(description="The results that were measured after the bake, line by line")
 
 
 def every():

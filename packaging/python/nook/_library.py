@@ -295,7 +295,7 @@ def encoded(value: Any, what: str) -> bytes:
         # surrogateescape is how Python keeps the bytes of a file name that is not UTF-8.
         return value.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
-        raise ValueError(f"{what}: {value!r} has half of a surrogate pair, which UTF-8 does not have") from None
+        raise ValueError(f"{what}: {value!r} contains half of a surrogate pair, which UTF-8 cannot encode") from None
 
 
 def names(values: Any, what: str) -> List[bytes]:

@@ -35,7 +35,7 @@ class Character(Handle):
         """
         super().__init__()
         if (path is None) == (data is None):
-            raise TypeError("Character: give either a path or data")
+            raise TypeError("Character: give either a path or data, not both")
         source = path_or_bytes(data if path is None else path, "Character")
         if isinstance(source, str):
             source = os.path.abspath(source)  # so that a copy finds the file from any working folder

@@ -35,7 +35,7 @@ class Job(Handle):
 
     _kind = c.nook_bake_job
     _destroy = "nook_bake_job_destroy"
-    _no_copy = "it runs on threads of this process; call wait() and pass on the bytes that it returns"
+    _no_copy = "the job runs on threads of this process; call wait(), and pass on the bytes that it returns"
 
     def __init__(self, desc: Any, progress: Optional[ProgressFunction], keep: Any) -> None:
         super().__init__()
@@ -61,7 +61,7 @@ class Job(Handle):
     @property
     def handle(self) -> Any:
         if self._process != os.getpid():
-            raise NookError("INVALID_HANDLE", "Job: it belongs to the process that started it; wait for the job there, and pass its bytes to other processes")
+            raise NookError("INVALID_HANDLE", "Job: the job belongs to the process that started it; wait for the job in that process, and pass its bytes to other processes")
         return super().handle
 
     def close(self) -> None:

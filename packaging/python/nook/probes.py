@@ -80,7 +80,7 @@ class ProbeFit(Handle):
 
     _kind = c.nook_probe_fit
     _destroy = "nook_probe_fit_destroy"
-    _no_copy = "its sums stay in the library; call solve() and pass on the probe, or fill a fit for each thread and merge() them"
+    _no_copy = "the sums of the fit stay in the library; call solve() and pass on the probe, or make one fit for each thread and merge() them"
 
     def __init__(self, lobes: int = 12, *, method: str = "least_squares", ambient: bool = False, form: str = "default") -> None:
         """form is default, or paper for the published method. With paper, method must be default."""

@@ -35,7 +35,7 @@ class Context(Handle):
 
     _kind = c.nook_context
     _destroy = "nook_context_destroy"
-    _no_copy = "each process makes its own"
+    _no_copy = "each process must make its own"
 
     def __init__(self) -> None:
         super().__init__()
@@ -225,7 +225,7 @@ class Instance:
         self.scene, self.model, self.number = scene, model, number
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        raise TypeError("a nook.Instance cannot be pickled or copied: it belongs to its scene; pass on its model and its pose")
+        raise TypeError("a nook.Instance cannot be pickled or copied: an instance belongs to its scene; pass on the model and the pose instead")
 
     def set_pose(self, pose: Any, kind: str = "rest_to_world", **options: Any) -> None:
         """Sets the pose for the next update.
@@ -250,7 +250,7 @@ class Instance:
         """Lets another instance of the same scene darken this one."""
         if need(caster, Instance, "caster").scene is not self.scene:
             # The library knows an instance by its number, which another scene has given to another one.
-            raise ValueError("caster: it is in another scene; add its model to this scene and link that instance")
+            raise ValueError("caster: the instance is in another scene; add its model to this scene, and link the new instance")
         call("nook_scene_link", self.scene.handle, self.number, caster.number)
 
     def record_pose(self) -> bytes:
@@ -283,7 +283,7 @@ class Scene(Handle):
 
     _kind = c.nook_scene
     _destroy = "nook_scene_destroy"
-    _no_copy = "it belongs to this process; pass on the models and poses, and make a scene of them there"
+    _no_copy = "the scene belongs to this process; pass on the models and poses, and make a new scene from them in the other process"
 
     def __init__(self, **settings: Any) -> None:
         """settings: numeric fields of nook_scene_desc, such as cutoff_error."""
