@@ -346,7 +346,7 @@ TEST_CASE("hostile Draco data is refused by name") {
   }
   SECTION("an attribute that is not there") {
     extension["attributes"]["POSITION"] = 77;
-    check("has identifier 77");
+    check("refers to identifier 77");
   }
   SECTION("an attribute of other components") {
     extension["attributes"]["POSITION"] = extension["attributes"]["JOINTS_0"];

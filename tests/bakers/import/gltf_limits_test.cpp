@@ -150,7 +150,7 @@ TEST_CASE("only regular files in the file's own folder are read") {
     write(folder / "tube.bin", data.data(), data.size());
     for (const char* uri : {"../tube.bin", "%2e%2e/tube.bin", "x/../../tube.bin"}) {
       write_gltf(folder / "inner/tube.gltf", file, uri);
-      CHECK(contains(import("inner/tube.gltf"), "tube.bin\", which is outside of its own folder"));
+      CHECK(contains(import("inner/tube.gltf"), "tube.bin\", which is outside the folder of this file"));
       fs::create_directories(folder / "inner/x");
       CHECK(import("inner/tube.gltf", LinkedFiles::anywhere) == "");
     }

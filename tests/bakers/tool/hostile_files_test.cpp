@@ -171,7 +171,7 @@ TEST_CASE("the tool warns before it replaces a file that has other names") {
   fs::create_hard_link(folder.path("m.nook"), folder.path("hard.nook"));
   const ToolRun hard = folder.run(small_probe(folder, folder.path("m.nook")));
   CHECK(hard.exit_code == 0);
-  CHECK(has(hard.error, "2 names (hard links); the other ones keep the old file"));
+  CHECK(has(hard.error, "2 names (hard links); the other names keep the old file"));
   CHECK(read_text(folder.path("hard.nook")) == "old");
   fs::remove(folder.path("link.nook"));
   fs::create_symlink("m.nook", folder.path("link.nook"));

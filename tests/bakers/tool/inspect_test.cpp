@@ -143,7 +143,7 @@ TEST_CASE("inspect lists what a bake takes of a glTF file") {
 
   const ToolRun none = folder.run({"inspect", file, "--mesh", "Axe"});
   CHECK(none.exit_code == 2);
-  CHECK(none.error.find("hero.glb: no node with a mesh and no mesh is named \"Axe\"") != std::string::npos);
+  CHECK(none.error.find("hero.glb: no mesh and no node with a mesh is named \"Axe\"") != std::string::npos);
 }
 
 TEST_CASE("every command that bakes a glTF file names what it leaves out, and takes the choice") {
