@@ -93,7 +93,7 @@ void check_radiance(const std::vector<float>& rgb) {
         out_of_range, max_radiance);
   if (negative > most_negative * light)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "the sum of its negative values is %.3g of the sum of its positive values (need at most "
+                  "the sum of its negative values is %.3g times the sum of its positive values (need at most "
                   "%g, which filters can cause); a difference image is not a map",
                   light > 0 ? negative / light : 1.0, most_negative);
 }

@@ -92,7 +92,8 @@ Influences read_influences(const tinygltf::Model& model, const tinygltf::Primiti
   const std::size_t sets = count_influence_sets(primitive, what);
   if (sets == 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
-                  "%s has a skin but no JOINTS_0 and WEIGHTS_0; export it with its weights", what.c_str());
+                  "%s has a skin but no JOINTS_0 and WEIGHTS_0; export the mesh with its weights",
+                  what.c_str());
   if (sets > max_influence_sets || sets * vertices > max_influence_elements)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "%s has too many joints: %zu sets of joints and weights for %zu vertices (need at most %zu "

@@ -355,7 +355,7 @@ void add_bake_material(Command bake) {
   for (const std::string_view name : meso_names()) names.append(names.empty() ? "" : ", ").append(name);
   command
       .add_input("--meso", o.meso,
-                 "source: a meso-structure to ray trace, one of " + names +
+                 "source: a small-scale surface structure (meso-structure) to ray trace, one of " + names +
                      ", or a closed mesh of one tile, y up, in a .glb or .gltf file")
       .type_name("NAME|TILE.glb");
   command.add_input("--pbr", o.pbr,

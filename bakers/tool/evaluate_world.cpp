@@ -58,9 +58,9 @@ std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
 void require_rooms(const Options& options) {
   const bool has_rooms = options.composite || (!options.lights.empty() && !options.images.empty());
   if (!options.scenes.empty() && !has_rooms)
-    throw ToolError(
-        exit_bad_arguments,
-        "--scene names a room, which only --composite, or --light with --images, measures; add one of them");
+    throw ToolError(exit_bad_arguments,
+                    "--scene names a room, but rooms are measured only with --composite, or with --light and "
+                    "--images; add these options");
   if (options.scene_metres.size() > options.scenes.size())
     throw ToolError(exit_bad_arguments, "--scene-metres has " + std::to_string(options.scene_metres.size()) +
                                             " values for " + std::to_string(options.scenes.size()) +

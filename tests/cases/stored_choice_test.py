@@ -90,7 +90,7 @@ class Test:
         if errors[0] == errors[1] or errors[1] != errors[2]:
             self.faults.append(f"the crate is left out of no room, or of one: {errors}")
         alone = composite[:4] + composite[5:7]
-        self.run(2, ["--scene names a room, which only --composite, or --light with --images, measures"], *alone)
+        self.run(2, ["--scene names a room, but rooms are measured only with --composite, or with --light and --images"], *alone)
         self.run(2, ["--scene-metres has 2 values for 1 of --scene"], *composite, "--scene-metres", "1", "2")
         self.run(2, ['no mesh and no node with a mesh is named "Crate"'], *composite, "--scene-without", "Crate")
 

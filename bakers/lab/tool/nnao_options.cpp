@@ -69,7 +69,7 @@ void check_options(const EvaluateNnaoOptions& options) {
     throw ToolError(
         exit_bad_arguments,
         "evaluate nnao: --temporal needs scenes or --mover. It cannot be combined with --bent-normals, "
-        "--methods, --network or --ratio, and with --images only if --mover is given");
+        "--methods, --network or --ratio. It can be combined with --images only if --mover is given");
   if (!options.views.empty() && !options.scenes.files.empty())
     throw ToolError(exit_bad_arguments,
                     "evaluate nnao: --views already lists the scenes; leave out the files");

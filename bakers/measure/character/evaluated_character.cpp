@@ -52,7 +52,7 @@ EvaluatedPoses choose_poses(const ImportedCharacter& character, const Recipe* re
     if (result.poses.empty())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "--poses training: the model was fitted only to poses that a program passed to the bake, "
-                    "and which it does not store; use --poses clips");
+                    "and the model does not store these poses; use --poses clips");
     result.protocol = "training poses";
     thin_out(result.poses, choice.most);
     return result;

@@ -188,7 +188,7 @@ Json composite_rows(platform::Context& context, std::span<const MeasuredRoom> ro
     if (cameras.empty())
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "%s has too little space for characters and a camera (placed %zu characters); need level "
-                    "ground with 2 m of free height, in metres with +y up",
+                    "ground with 2 m of free height; the scene must be in metres with +y up",
                     measured.name.c_str(), figures.size());
     std::vector<Capsule> casters;
     for (const Figure& figure : figures) {

@@ -38,7 +38,7 @@ Scene seen(const MeasuredRoom& measured, const SkinnedMesh& mesh, std::span<cons
   if (cameras.empty())
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "%s has too little space for characters and a camera (placed %zu characters); need level "
-                  "ground with 2 m of free height, in metres with +y up",
+                  "ground with 2 m of free height; the scene must be in metres with +y up",
                   measured.name.c_str(), scene.figures.size());
   // Uses only the surfaces of the view, not the traced AO.
   scene.view = trace_room_view(room, RayScene(room.soup), cameras.front(), {1, 0.01f, 1, settings.seed});

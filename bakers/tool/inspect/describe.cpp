@@ -64,7 +64,7 @@ void add_identity(Row& row, std::string_view recipe) {
   const std::optional<bake::BakeIdentity> identity = bake::stored_identity(recipe);
   row["key"] = identity ? Row(identity->key()) : Row();
   if (!identity) {
-    row["of_this_tool"] = "unknown: baked before files had keys";
+    row["of_this_tool"] = "unknown, because the file was baked before files had keys";
     return;
   }
   const std::string difference = bake::difference_from_this_tool(*identity);

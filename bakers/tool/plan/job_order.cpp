@@ -69,7 +69,7 @@ void find_needs(const Manifest& m, std::vector<Job>& jobs, const Writers& writer
   for (auto at = std::find(open.begin(), open.end(), job); at != open.end(); ++at)
     text += jobs[*at].output + " needs ";
   refuse(m, jobs[job].place,
-         "bakes need each other in a circle: " + text + jobs[job].output +
+         "bakes depend on each other in a circle: " + text + jobs[job].output +
              "; give one of them another input or output");
 }
 

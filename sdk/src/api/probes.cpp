@@ -80,8 +80,8 @@ void read_lobes(const nook_probe_desc& desc, Probes& probes) {
   for (std::size_t i = count; i < all; ++i)
     if (!same_function(desc.lobes[i], desc.lobes[i % count]))
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "lobe %zu of probe %zu differs in axis or sharpness from the same lobe of probe 0; all "
-                    "probes need the same lobes",
+                    "lobe %zu of probe %zu differs from the same lobe of probe 0 in its axis or sharpness; "
+                    "all probes need the same lobes",
                     i % count, i / count);
   probes.basis = basis_of(desc.lobes, desc.lobe_count);
   probes.coefficients.resize(all);

@@ -44,7 +44,7 @@ enum : unsigned {
 #define NOOK_GL_TOUCHED_STATE(X)                                                                            \
   X(program, everyone | outputs | captures, "GL_CURRENT_PROGRAM", "runs the passes; default 0")             \
   X(array_buffer, everyone | probes | outputs | captures, "GL_ARRAY_BUFFER_BINDING",                        \
-    "every upload goes through it; default 0")                                                              \
+    "Nook uploads buffers through it; default 0")                                                           \
   X(vertex_array, draws | outputs | captures, "GL_VERTEX_ARRAY_BINDING",                                    \
     "inputs of the vertex pass, or none; default 0")                                                        \
   X(active_texture, everyone | probes | grids | materials | outputs | captures | binds | clips,             \
@@ -55,7 +55,7 @@ enum : unsigned {
   X(texture_2d, screen | outputs | clips, "GL_TEXTURE_BINDING_2D of units 0 to 4",                          \
     "inputs of the stages; default 0")                                                                      \
   X(samplers, screen, "GL_SAMPLER_BINDING of units 0 to 4",                                                 \
-    "so that no parameter of a texture counts; default 0")                                                  \
+    "so that the parameters of textures have no effect; default 0")                                         \
   X(filter_texture, screen, "GL_TEXTURE_BINDING_BUFFER of unit 2, not on OpenGL ES",                        \
     "filters of the paper's network; default 0")                                                            \
   X(layer_textures, screen_layers, "GL_TEXTURE_BINDING_2D_ARRAY of units 1, 3 and 4",                       \
@@ -70,7 +70,7 @@ enum : unsigned {
   X(texture_3d, grids | captures, "GL_TEXTURE_BINDING_3D of unit 0", "uploads; default 0")                  \
   X(cube_map, captures, "GL_TEXTURE_BINDING_CUBE_MAP of unit 1", "the host's cube map; default 0")          \
   X(capture_samplers, captures, "GL_SAMPLER_BINDING of units 0 and 1",                                      \
-    "so that no parameter of a texture counts; default 0")                                                  \
+    "so that the parameters of textures have no effect; default 0")                                         \
   X(pixel_unpack_buffer, screen | materials | grids | outputs | texel_uploads | captures | clips,           \
     "GL_PIXEL_UNPACK_BUFFER_BINDING",                                                                       \
     "in nook_nnao_create, nook_gl_upload_material, nook_gl_upload_clips, nook_gl_upload_probe, "            \
@@ -81,18 +81,20 @@ enum : unsigned {
   X(pixel_store, materials | grids | outputs | texel_uploads | captures | clips,                            \
     "GL_UNPACK_SWAP_BYTES, LSB_FIRST, ROW_LENGTH, IMAGE_HEIGHT, SKIP_ROWS, SKIP_PIXELS, SKIP_IMAGES, "      \
     "ALIGNMENT; the first two not on OpenGL ES",                                                            \
-    "uploads without gaps; default 0, alignment 4")                                                         \
+    "uploads have no gaps between rows; default 0, alignment 4")                                            \
   X(draw_framebuffer, draws | outputs | captures, "GL_DRAW_FRAMEBUFFER_BINDING",                            \
-    "a draw needs a complete framebuffer; default 0")                                                       \
-  X(read_framebuffer, screen_reads, "GL_READ_FRAMEBUFFER_BINDING", "what is read back; default 0")          \
-  X(pixel_pack_buffer, screen_reads, "GL_PIXEL_PACK_BUFFER_BINDING", "texels go to host memory; default 0") \
+    "draws need a complete framebuffer; default 0")                                                         \
+  X(read_framebuffer, screen_reads, "GL_READ_FRAMEBUFFER_BINDING",                                          \
+    "the framebuffer that Nook reads back; default 0")                                                      \
+  X(pixel_pack_buffer, screen_reads, "GL_PIXEL_PACK_BUFFER_BINDING",                                        \
+    "unbound, so that texels go to host memory; default 0")                                                 \
   X(pixel_pack, screen_reads,                                                                               \
     "GL_PACK_ALIGNMENT, ROW_LENGTH, SKIP_ROWS, SKIP_PIXELS, SWAP_BYTES; the last not on OpenGL ES",         \
-    "texels without gaps; default alignment 4, else 0")                                                     \
+    "texels have no gaps between rows; default alignment 4, else 0")                                        \
   X(renderbuffer, tier_33 | outputs | captures, "GL_RENDERBUFFER_BINDING",                                  \
     "in nook_gl_create, nook_gl_scene_write and nook_gl_capture_create only; default 0")                    \
   X(viewport, screen, "GL_VIEWPORT, of index 0 from OpenGL 4.1 on",                                         \
-    "the stages' size; left at the frame's viewport in place of a default")                                 \
+    "the size of the stages; Nook leaves it at the frame's viewport instead of a default")                  \
   X(blend, screen,                                                                                          \
     "GL_BLEND, GL_BLEND_SRC/DST_RGB/ALPHA, GL_BLEND_EQUATION_RGB/ALPHA, of draw buffer 0 from OpenGL 4.0 "  \
     "on",                                                                                                   \
@@ -101,7 +103,7 @@ enum : unsigned {
   X(polygon_mode, screen, "GL_POLYGON_MODE, not on OpenGL ES", "one triangle is filled; default GL_FILL")   \
   X(scissor_test, screen, "GL_SCISSOR_TEST, of index 0 from OpenGL 4.1 on", "off; default disabled")        \
   X(framebuffer_srgb, screen, "GL_FRAMEBUFFER_SRGB, not on OpenGL ES",                                      \
-    "on for the host's targets; default disabled")                                                          \
+    "enabled while Nook draws into the host's targets; default disabled")                                   \
   X(fragment_tests, screen,                                                                                 \
     "GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_COLOR_LOGIC_OP, GL_SAMPLE_COVERAGE, GL_SAMPLE_MASK, " \
     "GL_SAMPLE_ALPHA_TO_COVERAGE, GL_CLIP_DISTANCE0 to GL_CLIP_DISTANCE7; on OpenGL ES those that it has",  \
@@ -110,7 +112,7 @@ enum : unsigned {
   X(rasterizer_discard, draws | outputs | captures, "GL_RASTERIZER_DISCARD",                                \
     "on in tier 33, where nothing is drawn, off in the screen-space pass; default disabled")                \
   X(primitive_restart, draws | outputs | captures, "GL_PRIMITIVE_RESTART, not on OpenGL ES",                \
-    "every index is a vertex; default disabled")                                                            \
+    "disabled, so that every index is a vertex; default disabled")                                          \
   X(transform_feedback, tier_33 | outputs | captures, "GL_TRANSFORM_FEEDBACK_BINDING",                      \
     "from OpenGL 4.0 and OpenGL ES 3.0 on; default 0")                                                      \
   X(feedback_buffer, tier_33 | outputs | captures,                                                          \
