@@ -78,13 +78,13 @@ constexpr std::uint32_t precise_rays = 512;
 
 // Takes evenly spread fitted poses and traces them again with many rays. Takes at most 24 poses, and at most
 // a quarter of the rays that the fit itself uses.
-TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const BakeSettings& settings,
-                          const Progress& progress) {
+TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const StandIns& stand_ins,
+                          const BakeSettings& settings, const Progress& progress) {
   const std::size_t affordable = set.fitted() * settings.rays / (4 * precise_rays);
   const std::size_t count = std::min(std::clamp<std::size_t>(affordable, 4, 24), set.fitted());
   TrainingSet share;
   for (std::size_t i = 0; i < count; ++i) share.poses.push_back(set.poses[i * set.fitted() / count]);
-  share.targets = trace_character_ao(mesh, share.poses, precise_rays, settings.seed + 1, progress);
+  share.targets = trace_character_ao(mesh, share.poses, precise_rays, settings.seed + 1, progress, stand_ins);
   return share;
 }
 
@@ -252,18 +252,21 @@ TracedPoses trace_poses(const SkinnedMesh& mesh, std::span<const Pose> poses, co
   TrainingSet& set = traced.set;
   set.poses.assign(poses.begin(), poses.end());
   set.held_out = hold_out(set.poses);
+  // The paper traces the vertices themselves.
+  const StandIns stand_ins =
+      settings.fit == FitMethod::paper ? StandIns() : choose_stand_ins(mesh, set.poses, settings.seed);
   set.targets = trace_character_ao(mesh, set.poses, settings.rays, settings.seed,
-                                   stage_progress(progress, BakeStage::raytrace));
+                                   stage_progress(progress, BakeStage::raytrace), stand_ins);
   report.noise_floor_held_out_mse =
-      measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed);
-  traced.precise = precise_share(mesh, set, settings, [&](std::size_t, std::size_t) {
+      measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed, stand_ins);
+  traced.precise = precise_share(mesh, set, stand_ins, settings, [&](std::size_t, std::size_t) {
     return !progress || progress(BakeStage::raytrace, set.poses.size(), set.poses.size());
   });
   report.noise_floor_mse = measure_noise_floor(mesh, traced.precise.poses, traced.precise.targets,
-                                               precise_rays, settings.seed + 1);
+                                               precise_rays, settings.seed + 1, stand_ins);
   const std::vector<Pose> rest{Pose(mesh.bones.size())};
   constexpr std::uint32_t rest_rays = 1024;
-  traced.rest = trace_character_ao(mesh, rest, rest_rays, settings.seed);
+  traced.rest = trace_character_ao(mesh, rest, rest_rays, settings.seed, {}, stand_ins);
   report.seconds_raytrace = watch.seconds();
   report.train_poses = set.poses.size();
   return traced;

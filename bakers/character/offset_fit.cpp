@@ -110,7 +110,9 @@ double calibrate_offsets(CharacterModel& model, const SkinnedMesh& mesh, std::sp
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "a pose to calibrate to has the wrong number of bones (got %zu, need %zu)", pose.size(),
                     mesh.bones.size());
-  return fit_offsets(model, poses, trace_character_ao(mesh, poses, settings.rays, settings.seed, progress));
+  const StandIns stand_ins = choose_stand_ins(mesh, poses, settings.seed);
+  return fit_offsets(model, poses,
+                     trace_character_ao(mesh, poses, settings.rays, settings.seed, progress, stand_ins));
 }
 
 }  // namespace nook::bake

@@ -52,7 +52,8 @@ CharacterModel refit_in_metres(const CharacterModel& model, const SkinnedMesh& m
                                const Progress& progress) {
   TrainingSet set;
   set.poses.assign(poses.begin(), poses.end());
-  set.targets = trace_character_ao(mesh, poses, settings.rays, settings.seed, progress);
+  const StandIns stand_ins = choose_stand_ins(mesh, poses, settings.seed);
+  set.targets = trace_character_ao(mesh, poses, settings.rays, settings.seed, progress, stand_ins);
   set.vertex_weight.assign(mesh.vertex_count(), 1.0f);
   const std::vector<float> area = vertex_areas(mesh, mesh.position);
   std::vector<Vec3> normal;
@@ -61,7 +62,7 @@ CharacterModel refit_in_metres(const CharacterModel& model, const SkinnedMesh& m
   FitState state = state_of_model(model);
   state.linear = fitted_layer(model, state, mesh, normal, set);
   const std::vector<Pose> rest{Pose(mesh.bones.size())};
-  const AoTargets rest_ao = trace_character_ao(mesh, rest, rest_rays, settings.seed);
+  const AoTargets rest_ao = trace_character_ao(mesh, rest, rest_rays, settings.seed, {}, stand_ins);
   std::vector<float> static_ao;
   for (const std::uint16_t v : rest_ao.row(0)) static_ao.push_back(float(v) * AoTargets::scale);
   CharacterModel out = export_model(state, mesh, area, normal, static_ao);

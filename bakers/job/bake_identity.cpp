@@ -16,8 +16,8 @@ struct Kind {
   int generation;
 };
 // In the order of BakeKind.
-constexpr std::array kinds{Kind{"character", 5},  Kind{"calibration", 1}, Kind{"bent", 1},
-                           Kind{"lod", 1},        Kind{"clips", 1},       Kind{"probe", 1},
+constexpr std::array kinds{Kind{"character", 6},  Kind{"calibration", 2}, Kind{"bent", 1},
+                           Kind{"lod", 2},        Kind{"clips", 2},       Kind{"probe", 1},
                            Kind{"probe-grid", 1}, Kind{"material", 1},    Kind{"synthesis", 1},
                            Kind{"transfer", 1}};
 static_assert(kinds.size() == std::size_t(BakeKind::transfer) + 1);

@@ -104,12 +104,14 @@ BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterMod
                           const ClipFrames& frames, const ClipTask& task, const StageReport& progress,
                           const BakeIdentity& identity) {
   const platform::Stopwatch watch;
+  const StandIns stand_ins = choose_stand_ins(character.mesh, frames.poses, task.tables.seed);
   const AoTargets targets = trace_character_ao(
       character.mesh, frames.poses, task.rays, task.tables.seed,
-      [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); });
+      [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); },
+      stand_ins);
   const double seconds_raytrace = watch.seconds();
   const double noise =
-      measure_noise_floor(character.mesh, frames.poses, targets, task.rays, task.tables.seed);
+      measure_noise_floor(character.mesh, frames.poses, targets, task.rays, task.tables.seed, stand_ins);
   ClipTableReport tables;
   ClipSet set = make_clip_set(character.mesh, model, frames, targets, noise, task.tables, tables);
   set.recipe = with_identity(clip_recipe(character, task), identity);

@@ -90,7 +90,120 @@ void trace_receivers(const RayScene& scene, const Receivers& receivers, const Ao
   pace.throw_if_stopped("points");
 }
 
+constexpr float unlimited = std::numeric_limits<float>::infinity();
+
+// The vertices of a mesh in a pose.
+struct PosedSurface {
+  std::vector<Vec3> position, normal;
+
+  void pose(const SkinnedMesh& mesh, const Pose& pose) {
+    skin_positions(mesh, pose, position);
+    posed_normals(mesh, pose, position, normal);
+  }
+};
+
+float trace_surface_point(const RayScene& scene, const PosedSurface& surface, const SurfacePoint& point,
+                          const HemispherePatterns& patterns, float offset, std::uint64_t random) {
+  Vec3 position, normal;
+  for (int i = 0; i < 3; ++i) {
+    position += point.weight[i] * surface.position[point.vertex[i]];
+    normal += point.weight[i] * surface.normal[point.vertex[i]];
+  }
+  if (!(length(normal) > 0)) return 0;
+  return trace_point(scene, position, normalised(normal), patterns, unlimited, offset, random);
+}
+
+// Returns the weighted mean AO of the visible points, or `own` if none is visible.
+float shown_ao(const RayScene& scene, const PosedSurface& surface, std::span<const StandIns::Point> points,
+               float own, const HemispherePatterns& patterns, float offset, std::uint64_t random) {
+  float sum = 0, weights = 0;
+  for (const StandIns::Point& point : points) {
+    random = mix_bits(random);
+    const float ao = trace_surface_point(scene, surface, point.at, patterns, offset, random);
+    if (ao < hidden_below) continue;
+    sum += point.weight * ao;
+    weights += point.weight;
+  }
+  return weights > 0 ? sum / weights : own;
+}
+
+// Returns points on the edges of each vertex at a quarter, half and three quarters of their length, and the
+// centroids of its triangles. Weights are the barycentric weight of the vertex times the length or the root
+// of the area that the point stands for.
+StandIns all_stand_ins(const SkinnedMesh& mesh) {
+  std::vector<std::vector<StandIns::Point>> points(mesh.vertex_count());
+  for (const auto& t : mesh.triangle) {
+    const Vec3 a = mesh.position[t[0]], b = mesh.position[t[1]], c = mesh.position[t[2]];
+    const float size = std::sqrt(0.5f * length(cross(b - a, c - a)));
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const std::uint32_t v = t[corner], next = t[(corner + 1) % 3], last = t[(corner + 2) % 3];
+      // An inner edge belongs to two triangles. Each takes the edge in one direction for this vertex.
+      const float edge = length(mesh.position[next] - mesh.position[v]);
+      for (const float along : {0.25f, 0.5f, 0.75f})
+        points[v].push_back({{{v, next, last}, {1 - along, along, 0}}, (1 - along) * edge});
+      points[v].push_back({{{v, next, last}, {1 / 3.0f, 1 / 3.0f, 1 / 3.0f}}, size / 3});
+    }
+  }
+  StandIns all;
+  for (const auto& own : points) {
+    all.first.push_back(std::uint32_t(all.points.size()));
+    all.points.insert(all.points.end(), own.begin(), own.end());
+  }
+  all.first.push_back(std::uint32_t(all.points.size()));
+  return all;
+}
+
+// Adds up the weights of each point over the poses in which it is visible and its vertex hidden.
+std::vector<float> count_uses(const SkinnedMesh& mesh, std::span<const Pose> poses, const StandIns& all,
+                              std::uint64_t seed) {
+  constexpr std::uint32_t rays = 32;
+  const float offset = ray_origin_offset(mesh.position);
+  const HemispherePatterns patterns(rays, seed);
+  const RayDevice device;
+  std::vector<float> uses(all.points.size());
+  for (std::size_t p = 0; p < poses.size(); ++p) {
+    PosedSurface surface;
+    surface.pose(mesh, poses[p]);
+    const RayScene scene(device, surface.position, mesh.triangle);
+    tbb::parallel_for(std::size_t(0), mesh.vertex_count(), [&](std::size_t v) {
+      const FlushDenormals flush;
+      std::uint64_t random = mix_bits(mix_bits(seed + p) ^ v);
+      if (trace_point(scene, surface.position[v], surface.normal[v], patterns, unlimited, offset, random) >=
+          hidden_below)
+        return;
+      for (std::uint32_t i = all.first[v]; i < all.first[v + 1]; ++i) {
+        random = mix_bits(random);
+        if (trace_surface_point(scene, surface, all.points[i].at, patterns, offset, random) >= hidden_below)
+          uses[i] += all.points[i].weight;
+      }
+    });
+  }
+  return uses;
+}
+
 }  // namespace
+
+StandIns choose_stand_ins(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint64_t seed) {
+  constexpr std::size_t most_poses = 24, most_points = 4;
+  std::vector<Pose> sample;
+  const std::size_t count = std::min(most_poses, poses.size());
+  for (std::size_t i = 0; i < count; ++i) sample.push_back(poses[i * poses.size() / count]);
+  const StandIns all = all_stand_ins(mesh);
+  const std::vector<float> uses = count_uses(mesh, sample, all, seed);
+  StandIns chosen;
+  std::vector<std::uint32_t> order;
+  for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+    chosen.first.push_back(std::uint32_t(chosen.points.size()));
+    order.clear();
+    for (std::uint32_t i = all.first[v]; i < all.first[v + 1]; ++i)
+      if (uses[i] > 0) order.push_back(i);
+    std::ranges::stable_sort(order, std::greater<>{}, [&](std::uint32_t i) { return uses[i]; });
+    order.resize(std::min(order.size(), most_points));
+    for (const std::uint32_t i : order) chosen.points.push_back(all.points[i]);
+  }
+  chosen.first.push_back(std::uint32_t(chosen.points.size()));
+  return chosen;
+}
 
 float ray_origin_offset(std::span<const Vec3> rest_positions) {
   Vec3 low = rest_positions.front(), high = low;
@@ -121,32 +234,29 @@ Openness trace_openness(const RayScene& scene, const Receivers& receivers, const
 }
 
 AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
-                             std::uint64_t seed, const Progress& progress) {
+                             std::uint64_t seed, const Progress& progress, const StandIns& stand_ins) {
   AoTargets targets;
   targets.vertex_count = mesh.vertex_count();
   targets.value.resize(poses.size() * mesh.vertex_count());
   const float offset = ray_origin_offset(mesh.position);
   const HemispherePatterns patterns(rays, seed);
   const RayDevice device;
-  struct Workspace {
-    std::vector<Vec3> position, normal;
-  };
-  tbb::enumerable_thread_specific<Workspace> workspaces;
+  tbb::enumerable_thread_specific<PosedSurface> workspaces;
   Pace pace(progress, poses.size());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, poses.size(), 1),
       [&](const auto& range) {
         const FlushDenormals flush;
-        Workspace& work = workspaces.local();
+        PosedSurface& work = workspaces.local();
         for (std::size_t p = range.begin(); p < range.end() && !pace.is_stopped(); ++p) {
-          skin_positions(mesh, poses[p], work.position);
-          posed_normals(mesh, poses[p], work.position, work.normal);
+          work.pose(mesh, poses[p]);
           const RayScene scene(device, work.position, mesh.triangle);
           std::uint16_t* row = &targets.value[p * targets.vertex_count];
           for (std::size_t v = 0; v < targets.vertex_count; ++v) {
             const std::uint64_t random = mix_bits(mix_bits(seed + p) ^ v);
-            const float ao = trace_point(scene, work.position[v], work.normal[v], patterns,
-                                         std::numeric_limits<float>::infinity(), offset, random);
+            float ao =
+                trace_point(scene, work.position[v], work.normal[v], patterns, unlimited, offset, random);
+            if (ao < hidden_below) ao = shown_ao(scene, work, stand_ins.of(v), ao, patterns, offset, random);
             row[v] = std::uint16_t(std::lround(ao * 65535));
           }
           pace.add(1);
@@ -158,7 +268,7 @@ AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> pose
 }
 
 double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
-                           std::uint32_t rays, std::uint64_t seed) {
+                           std::uint32_t rays, std::uint64_t seed, const StandIns& stand_ins) {
   constexpr std::size_t sample_poses = 8;
   std::vector<Pose> sample;
   std::vector<std::size_t> index;
@@ -166,7 +276,7 @@ double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses,
     index.push_back(i * poses.size() / std::min(sample_poses, poses.size()));
     sample.push_back(poses[index.back()]);
   }
-  const AoTargets again = trace_character_ao(mesh, sample, rays, mix_bits(~seed));
+  const AoTargets again = trace_character_ao(mesh, sample, rays, mix_bits(~seed), {}, stand_ins);
   double sum = 0;
   for (std::size_t s = 0; s < sample.size(); ++s)
     for (std::size_t i = 0; i < mesh.vertex_count(); ++i) {

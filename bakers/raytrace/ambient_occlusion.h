@@ -71,15 +71,50 @@ struct AoTargets {
   static constexpr float scale = 1.0f / 65535.0f;
 };
 
-// Distributes poses over all threads. Builds one BVH for each pose. The same seed gives the same targets on
-// any number of threads. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
+// A vertex is hidden in a pose if its traced AO is below this. Such a vertex is inside the body or in a fist.
+// Two open rays out of 128 reach this value.
+inline constexpr float hidden_below = 0.01f;
+
+// A point on a triangle. It moves with the triangle's vertices.
+struct SurfacePoint {
+  std::array<std::uint32_t, 3> vertex{};
+  std::array<float, 3> weight{};  // barycentric
+};
+
+// Points that stand in for hidden vertices. No camera sees a hidden vertex, but renderers interpolate its AO
+// over its triangles, and parts of these may be visible: a rod whose ends are in joints, a leg under a hem.
+// With the vertex's own AO, which is 0, they would be black.
+struct StandIns {
+  struct Point {
+    SurfacePoint at;
+    float weight = 0;  // in the mean over the visible points of a vertex
+  };
+  std::vector<std::uint32_t> first;  // index of the first point of each vertex, and the end; empty: no points
+  std::vector<Point> points;
+
+  std::span<const Point> of(std::size_t vertex) const {
+    if (first.empty()) return {};
+    return {points.data() + first[vertex], points.data() + first[vertex + 1]};
+  }
+};
+
+// Looks for hidden vertices in at most 24 of the poses, and for the points on their edges and triangles that
+// are visible meanwhile. Keeps up to 4 points for each vertex. A vertex that is hidden only in other poses
+// gets no points. The same seed gives the same points on any number of threads.
+StandIns choose_stand_ins(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint64_t seed);
+
+// Distributes poses over all threads. Builds one BVH for each pose. Where a vertex is hidden, its target is
+// the weighted mean AO of those of its stand-ins that are visible; without any, it is the vertex's own AO.
+// The truth for errors needs no stand-ins; the targets of fits need them. The same seed gives the same
+// targets on any number of threads. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
 AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
-                             std::uint64_t seed, const Progress& progress = {});
+                             std::uint64_t seed, const Progress& progress = {},
+                             const StandIns& stand_ins = {});
 
 // Returns the expected squared error of such targets. It is half the mean squared difference between the
 // targets and a second, independent tracing of some of the poses.
 double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
-                           std::uint32_t rays, std::uint64_t seed);
+                           std::uint32_t rays, std::uint64_t seed, const StandIns& stand_ins = {});
 
 // Returns the offset of ray origins for a character: 1e-4 of the diagonal of its rest bounding box.
 float ray_origin_offset(std::span<const Vec3> rest_positions);

@@ -14,9 +14,9 @@
 namespace nook::measure {
 
 // A vertex in a pose counts as black if its ray-traced AO is below this. Such vertices are inside the body or
-// in a fist: no camera sees them, and a model that predicts 0 is always right there. Two open rays out of 128
-// reach this value.
-inline constexpr double visible_truth = 0.01;
+// in a fist. No camera sees them, so errors of visible vertices leave them out; but their triangles may be
+// visible, and measure_surface counts these.
+inline constexpr double visible_truth = double(bake::hidden_below);
 
 struct ErrorColumns {
   double mse = 0;          // over all welded vertices and poses, as in the paper

@@ -9,6 +9,7 @@
 #include "bakers/character/pose_sets.h"
 #include "bakers/import/clip.h"
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/measure/character/surface_error.h"
 #include "sdk/src/character/model_file.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/core/failure.h"
@@ -100,6 +101,16 @@ void add_errors_without_noise(Json& row, const BakedCharacter& baked, std::span<
   row["ratio_to_oracle_visible_without_noise"] = ratio(errors.by_vertices.model, errors.oracle);
 }
 
+// Adds the errors at points between vertices.
+void add_surface_errors(Json& row, const BakedCharacter& baked, std::span<const Pose> poses,
+                        std::uint64_t seed) {
+  const SurfaceErrors errors = measure_surface(baked.character.mesh, baked.model, poses, seed);
+  row["mse_surface"] = errors.model;
+  row["mse_surface_static"] = errors.static_bake;
+  row["mse_surface_exact_vertices"] = errors.exact_vertices;
+  row["ratio_to_static_surface"] = ratio(errors.model, errors.static_bake);
+}
+
 // Fits other methods to the model's own training poses and measures them on the same targets.
 void add_peers(Json& row, const ImportedCharacter& character, const Recipe* recipe,
                std::span<const Pose> measured, const AoTargets& truth,
@@ -155,6 +166,7 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
                                          evaluation_ray_seed(settings.seed), progress("ray tracing"));
   report.row = model_row(baked, measured, settings.name, report.evaluation);
   add_errors_without_noise(report.row, baked, measured.poses, settings, report.evaluation, progress);
+  add_surface_errors(report.row, baked, measured.poses, mix_bits(settings.seed ^ 0x73757266616365ull));
   add_update_errors(report.row, baked.model, measured.poses, report.evaluation.truth);
   if (!settings.peers.empty())
     add_peers(report.row, baked.character, recipe, measured.poses, report.evaluation.truth, settings,

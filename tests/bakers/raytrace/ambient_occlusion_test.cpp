@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/bakers/raytrace/sphere_soup.h"
@@ -88,6 +89,69 @@ TEST_CASE("targets of a character do not depend on threads, and their noise is w
   }
   // The error against nearly exact values is the stated floor, within the scatter of 3,500 samples.
   CHECK(square < 1.5 * measure_noise_floor(mesh, poses, many, 64, 9) + 2e-5);
+}
+
+namespace {
+
+void add_part(SkinnedMesh& mesh, const TriangleSoup& part) {
+  const auto first = std::uint32_t(mesh.position.size());
+  mesh.position.insert(mesh.position.end(), part.position.begin(), part.position.end());
+  for (const auto& t : part.triangle) mesh.triangle.push_back({first + t[0], first + t[1], first + t[2]});
+}
+
+// A rod of four sides without caps along x. All its vertices are at its ends.
+TriangleSoup rod(float from, float to, float half_width) {
+  TriangleSoup soup;
+  for (const float x : {from, to})
+    for (const auto& [y, z] : {std::pair{1.0f, 1.0f}, {-1.0f, 1.0f}, {-1.0f, -1.0f}, {1.0f, -1.0f}})
+      soup.position.push_back({x, half_width * y, half_width * z});
+  for (std::uint32_t s = 0; s < 4; ++s) {
+    const std::uint32_t next = (s + 1) % 4;
+    soup.triangle.push_back({s, next, 4 + s});
+    soup.triangle.push_back({next, 4 + next, 4 + s});
+  }
+  return soup;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a hidden vertex takes the AO of the visible parts of its triangles, and a buried one stays black") {
+  SkinnedMesh mesh;
+  mesh.bones.resize(1);
+  add_part(mesh, rod(0, 2, 0.05f));
+  add_part(mesh, sphere_soup({0, 0, 0}, 0.2f, 16));
+  add_part(mesh, sphere_soup({2, 0, 0}, 0.2f, 16));
+  const std::size_t buried = mesh.position.size();
+  add_part(mesh, sphere_soup({2, 0, 0}, 0.1f, 8));  // inside the second sphere
+  SkinWeights weights;
+  weights.weight[0] = 1;
+  mesh.weights.assign(mesh.position.size(), weights);
+  const std::vector<Pose> poses(1, Pose(1));
+  const StandIns stand_ins = choose_stand_ins(mesh, poses, 5);
+  const AoTargets own = trace_character_ao(mesh, poses, 256, 5);
+  const AoTargets shown = trace_character_ao(mesh, poses, 256, 5, {}, stand_ins);
+
+  // Along the rod, the spheres darken its sides by 0 to 0.04 at the points that stand in.
+  const Vec3 middle{1, 0.05f, 0.05f};
+  AoSettings settings;
+  settings.rays = 1024;
+  settings.origin_offset = 1e-4f;
+  const float truth = ao_of({mesh.position, mesh.triangle}, middle, normalised(Vec3{0, 1, 1}), settings);
+  CHECK(truth > 0.9f);
+  for (std::size_t v = 0; v < 8; ++v) {
+    CHECK(own.value[v] == 0);
+    CHECK(stand_ins.of(v).size() > 0);
+    CHECK(stand_ins.of(v).size() <= 4);
+    CHECK(std::abs(float(shown.value[v]) * AoTargets::scale - truth) < 0.06f);
+  }
+  for (std::size_t v = 8; v < mesh.vertex_count(); ++v) {
+    if (v >= buried) CHECK(shown.value[v] == 0);
+    if (own.value[v] > 0.01 * 65535) CHECK(shown.value[v] == own.value[v]);
+  }
+
+  const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+  CHECK(trace_character_ao(mesh, poses, 256, 5, {}, choose_stand_ins(mesh, poses, 5)).value == shown.value);
 }
 
 TEST_CASE("progress can cancel") {
