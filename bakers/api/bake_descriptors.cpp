@@ -1,4 +1,4 @@
-// The defaults of all descriptors of the bakers' library, and the call that hands them out.
+// The default values of all descriptors of the bakers' library, and the function that returns them.
 #include <limits>
 
 #include "bakers/api/bake_descriptors.h"

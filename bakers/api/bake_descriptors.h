@@ -1,4 +1,5 @@
-// The descriptors of the bakers' library, one line each: the name behind NOOK_DESC_ and the struct.
+// Lists the descriptors of the bakers' library, one per line: the part of the type's name after NOOK_DESC_,
+// and the struct.
 #pragma once
 
 #include <nook/experimental/nook_bake_materials.h>

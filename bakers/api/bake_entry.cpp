@@ -7,7 +7,7 @@
 namespace nook::bake::api {
 namespace {
 
-// Plain bytes need no destruction when a thread ends or the library is unloaded.
+// This is a plain array, because it needs no destructor when a thread ends or the library is unloaded.
 thread_local char last_message[640] = "";
 
 }  // namespace

@@ -1,4 +1,5 @@
-// Every C function that can fail runs its body here; an exception becomes a result and this thread's message.
+// Every C function that can fail runs its body through these functions. They convert an exception to a result
+// code and the last message of this thread.
 #pragma once
 
 #include <utility>

@@ -22,24 +22,25 @@ struct nook_bake_job_s {
 
 namespace nook::bake::api {
 
-// The functions behind one kind of bake. Both read the descriptor, whose type is checked already, and throw
-// Failure.
+// The functions that implement one kind of bake. Both read the descriptor, whose type has already been
+// checked. Both throw Failure.
 struct Bake {
   nook_bake_job_s* (*start)(const void* desc) = nullptr;
   BakeIdentity (*identify)(const void* desc) = nullptr;
 };
 
-// The bake of characters, which every library has.
+// Returns the bake of characters. Every library contains it.
 Bake character_bake();
 
-// Starts the bake with the threads and the progress of its descriptor.
+// Starts the bake with the thread count and the progress callback of its descriptor.
 template <class Desc>
 nook_bake_job_s* start_job(const Desc& d, BakeJob::Bake bake) {
   return new nook_bake_job_s{BakeJob(std::move(bake), d.threads, listener_of(d.progress, d.progress_user))};
 }
 
-// Returns null pointers for a type that is not a bake. bake_starters.cpp knows every bake. A library of
-// characters alone links character_starters.cpp instead, and with it none of the other bakers.
+// Returns null pointers if `type` is not a bake. The definition in bake_starters.cpp supports every bake. A
+// library that only bakes characters links the definition in character_starters.cpp instead, so that it links
+// no other baker.
 Bake bake_of(std::uint32_t type);
 
 }  // namespace nook::bake::api

@@ -37,11 +37,11 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   index, count);
 }
 
-// A program that opens a pipe without a writer would wait for ever, without a word.
+// If a path is a pipe without a writer, opening it would block for ever without a message.
 void require_regular_file(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
-  // The importer says why a missing file or a folder cannot be read.
+  // The importer reports a good message for a missing file or a folder, so they are not rejected here.
   if (!std::filesystem::exists(status) || std::filesystem::is_directory(status) ||
       std::filesystem::is_regular_file(status))
     return;
@@ -98,7 +98,7 @@ ImportedCharacter character_of(const nook_bake_source_desc& desc, const MeshSele
   return character_of_arrays(desc);
 }
 
-// Copies elements of `size` bytes to where the caller wants each.
+// Copies elements of `size` bytes each to the positions that the caller chose.
 class Rows {
  public:
   Rows(void* out, std::size_t count, std::size_t size, std::size_t stride)
@@ -171,7 +171,7 @@ void read_skin(const SkinnedMesh& mesh, nook_bake_array array, void* out, std::s
   }
 }
 
-// Writes values of welded vertices in file order.
+// Writes the posed welded vertices in the vertex order of the file.
 void write_posed(const SkinnedMesh& mesh, const Pose& pose, float* positions, float* normals) {
   std::vector<Vec3> position, normal;
   skin_positions(mesh, pose, position);

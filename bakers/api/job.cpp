@@ -1,5 +1,5 @@
-// Starts and identifies a bake by the type of its descriptor, bakes a character's model, and owns the life of
-// a job.
+// Starts and identifies a bake by the type of its descriptor, bakes a character's model, and creates and
+// destroys jobs.
 #include <nook/experimental/nook_bake_key.h>
 #include <nook/nook_bake.h>
 
@@ -39,7 +39,7 @@ const BakeJob& get(nook_bake_job job) {
   return job->job;
 }
 
-// What a descriptor asks for.
+// The bake that a descriptor requests.
 struct CharacterRequest {
   nook_bake_character_desc settings;
   std::shared_ptr<const ImportedCharacter> character;

@@ -1,12 +1,12 @@
-# Functions that bake assets when a project is built, with the tool nook::tool. A bake runs again when a file changes that it
-# reads, or the tool. docs/guide/pipeline.md has examples.
+# Functions that bake assets when a project is built, with the tool nook::tool. A bake runs again when one of
+# its input files or the tool changes. docs/guide/pipeline.md has examples.
 #
 #   nook_bake_character(TARGET FILE hero.glb [settings])
 #   nook_bake_bent(TARGET FILE hero.glb MODEL body.nook OUTPUT hero.nook [settings])
 #   nook_bake_lod(TARGET FILE hero_lod1.glb MODEL hero.nook [settings])
 #
-# TARGET builds the files. A target of this folder, such as a program, gets them as further sources. For any other name the
-# function makes a custom target that belongs to `all`.
+# Building TARGET bakes the files. If TARGET is a target of this folder, such as a program, the files are added
+# to its sources. For any other name, the function makes a custom target that belongs to `all`.
 #
 #   FILE     the .glb or .gltf file
 #   MODEL    the baked character that the bake starts from; it may be the OUTPUT of another call in this folder
@@ -16,12 +16,13 @@
 #   ISA      the instruction set; default: the variable NOOK_BAKE_ISA
 #   OPTIONS  further options of the command
 #
-# Relative names of FILE, MODEL, CACHE and of files in OPTIONS begin at the current source folder, and those of OUTPUT and REPORT
-# at the current build folder. A MODEL that the source folder lacks is looked for among the outputs.
+# Relative paths in FILE, MODEL, CACHE and OPTIONS are relative to the current source folder. Relative paths in
+# OUTPUT and REPORT are relative to the current build folder. If the source folder does not contain MODEL, the
+# function looks for it in the current build folder.
 cmake_policy(PUSH)
 cmake_policy(VERSION 3.20...3.25)
 
-# Writes a name as an absolute one. The name of a file in OPTIONS would begin elsewhere in the depfile.
+# Makes the paths in OPTIONS absolute. Relative paths in the depfile would be relative to another folder.
 function(nook_bake_absolute_options out)
   set(options "")
   set(is_file FALSE)
@@ -41,7 +42,8 @@ function(nook_bake_absolute_options out)
   set(${out} "${options}" PARENT_SCOPE)
 endfunction()
 
-# What all kinds have in common. INPUTS are the files behind the name of the command, in its order.
+# The part that all kinds of bakes share. INPUTS are the positional arguments of the command, in the command's
+# order.
 function(nook_bake_command kind target output inputs)
   cmake_parse_arguments(PARSE_ARGV 4 bake "" "REPORT;CACHE;ISA" "OPTIONS")
   set(call "nook_bake_${kind}(${target})")
@@ -75,7 +77,7 @@ function(nook_bake_command kind target output inputs)
     list(APPEND options --isa "${bake_ISA}")
   endif()
 
-  # The tool makes no folders.
+  # The tool does not make the output folder.
   cmake_path(GET output PARENT_PATH folder)
   cmake_path(GET output FILENAME name)
   file(MAKE_DIRECTORY "${folder}")
@@ -95,8 +97,8 @@ function(nook_bake_command kind target output inputs)
   target_sources("${target}" PRIVATE "${output}")
 endfunction()
 
-# Checks the arguments of a call, and makes absolute names of FILE, MODEL and OUTPUT. Sets bake_FILE, bake_MODEL, bake_OUTPUT, and
-# bake_settings with the rest.
+# Checks the arguments of a call, and makes the paths of FILE, MODEL and OUTPUT absolute. Sets bake_FILE,
+# bake_MODEL and bake_OUTPUT. Stores the remaining arguments in bake_settings.
 macro(nook_bake_parse kind target takes_model)
   set(bake_call "nook_bake_${kind}(${target})")
   cmake_parse_arguments(PARSE_ARGV 1 bake "" "FILE;MODEL;OUTPUT;REPORT;CACHE;ISA" "OPTIONS")

@@ -1,4 +1,4 @@
-// Traces rays in a scene of the caller, for ambient occlusion and path-traced irradiance.
+// Traces rays in a scene that the caller provides, for ambient occlusion and path-traced irradiance.
 #include <nook/experimental/nook_trace.h>
 
 #include <cmath>
