@@ -15,7 +15,7 @@ struct Kind {
   const char* name;
   int generation;
 };
-// In the order of BakeKind.
+// Each entry has the name and the generation of a kind. The entries are in the order of BakeKind.
 constexpr std::array kinds{Kind{"character", 6},  Kind{"calibration", 2}, Kind{"bent", 1},
                            Kind{"lod", 2},        Kind{"clips", 2},       Kind{"probe", 1},
                            Kind{"probe-grid", 1}, Kind{"material", 1},    Kind{"synthesis", 1},

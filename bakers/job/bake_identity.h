@@ -1,7 +1,7 @@
 // The identity of a bake contains everything that determines its bytes. Every baked file stores it as
 // canonical text. The key is a hash of this text. Two bakes with equal text give equal bytes on any machine.
 // The only exception is the names of source files in the recipes of probes, materials, synthesis and
-// transfer. A pipeline compares keys to find out what it has to bake again.
+// transfer. A build pipeline compares keys to find out which files it has to bake again.
 #pragma once
 
 #include <cstdint>
@@ -32,9 +32,9 @@ const char* name_of(BakeKind kind);
 // bytes for equal inputs.
 int bake_generation(BakeKind kind);
 
-// The text is one line of JSON with sorted keys. It has kind, generation, the versions of Nook, Embree and
-// compiler, and the resolved instruction set. It also has hashes of all inputs, and every setting. It does
-// not contain names of files or machines.
+// The text is one line of JSON with sorted keys. It contains the kind, the generation, the versions of Nook,
+// Embree and the compiler, and the instruction set that the bake really uses. It also contains hashes of all
+// inputs, and every setting. It does not contain names of files or machines.
 struct BakeIdentity {
   std::string text;
 
@@ -52,12 +52,12 @@ void store_identity(nlohmann::ordered_json& recipe, const BakeIdentity& identity
 // empty, returns the text unchanged.
 std::string with_identity(std::string_view recipe_text, const BakeIdentity& identity);
 
-// Returns the identity in a recipe. Returns nothing for files of earlier versions, and for text that is not a
-// recipe.
+// Returns the identity that a recipe contains. Returns nothing if the file is from an earlier version of
+// Nook, or if the text is not a recipe.
 std::optional<BakeIdentity> stored_identity(std::string_view recipe_text);
 
 // Describes how the tool that made a file differs from this tool, such as "embree 3.13.4, here 3.13.5". If
-// the text is empty, a bake with equal inputs and settings has the same key.
+// the result is empty, this tool computes the same key for a bake with the same inputs and settings.
 std::string difference_from_this_tool(const BakeIdentity& identity);
 
 }  // namespace nook::bake

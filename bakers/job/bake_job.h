@@ -1,4 +1,5 @@
-// Runs one bake on its own thread. Provides its outcome and progress in the form of the C interface.
+// Runs one bake on its own thread. Provides the outcome and the progress of the bake in the form that the C
+// interface uses.
 #pragma once
 
 #include <nook/nook.h>
@@ -25,7 +26,7 @@ struct Outcome {
 
 Outcome outcome_of(const std::exception_ptr& exception) noexcept;
 
-// The progress of a job. A job is finished as soon as its result is known.
+// The progress of a job. A job counts as finished as soon as its result is known.
 struct JobProgress {
   bool finished = false;
   JobStage stage = JobStage::waiting;
@@ -34,10 +35,11 @@ struct JobProgress {
 
 class BakeJob {
  public:
-  using Listener = std::function<bool(const JobProgress&)>;  // return false to cancel; not called after the
+  using Listener = std::function<bool(const JobProgress&)>;  // return false to cancel; never called after the
                                                              // job has finished
 
-  // Called once, on `threads` threads (0: all cores). Destroyed together with the job.
+  // The job calls this function once and lets it use `threads` threads (0: all cores). The function object is
+  // destroyed together with the job.
   using Bake = std::function<BakedFile(const StageReport&)>;
 
   BakeJob(Bake bake, std::size_t threads, Listener listener);

@@ -55,7 +55,7 @@ inline const char* text_of(JobStage stage) {
   return "done";
 }
 
-// Returns false to stop.
+// The callback returns false to stop the bake.
 using StageReport = std::function<bool(JobStage stage, std::size_t done, std::size_t total)>;
 
 }  // namespace nook::bake

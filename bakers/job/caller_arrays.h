@@ -15,8 +15,8 @@
 
 namespace nook::bake {
 
-// Throws INVALID_ARGUMENT if a number is not finite or exceeds the bound for poses. The message names the
-// pose and the bone.
+// Throws INVALID_ARGUMENT if a value is not finite or exceeds the limit for poses. The message names the pose
+// and the bone.
 std::vector<Pose> read_poses(const float* bones_3x4, std::size_t poses, std::size_t bones);
 void write_pose(const Pose& pose, float* bones_3x4);
 void write_points(std::span<const Vec3> welded, std::span<const std::uint32_t> file_to_welded, float* xyz);
@@ -24,9 +24,9 @@ void write_points(std::span<const Vec3> welded, std::span<const std::uint32_t> f
 // Throws INVALID_ARGUMENT if `got` differs from `needed`.
 void need_count(const char* name, std::size_t got, std::size_t needed);
 
-// Makes a character from arrays of the host.
+// Makes a character from arrays that the host passes.
 
-// Throws INVALID_ARGUMENT with the first error.
+// If there are errors, throws INVALID_ARGUMENT with the first one.
 ImportedCharacter character_of_arrays(const nook_bake_source_desc& desc);
 
 // These functions read and check a caller's triangles and receivers for ray tracing. All of them throw

@@ -20,7 +20,8 @@
 namespace nook::bake {
 namespace {
 
-// The bounds are far above any sensible bake. They prevent hostile values from allocating all memory.
+// The limits are far above the values of any sensible bake. Without them, invalid input could allocate all
+// memory.
 constexpr std::uint32_t max_spheres = 1024, max_key_points = 4096, max_rays = 65536, max_poses = 1'000'000,
                         max_steps = 10'000'000;
 
@@ -107,7 +108,7 @@ std::vector<std::size_t> chosen_clips(const nook_bake_character_desc& desc, nook
 
 // The time of an update is proportional to spheres times key points. The time of skinning is proportional to
 // the vertices. Below about 1,000 vertices, both counts are limited in proportion to the vertices.
-// docs/lab/character.md says how much this raises the error.
+// docs/lab/character.md says by how much these limits increase the error.
 void limit_capacity(const nook_bake_character_desc& desc, std::size_t vertices, BakeSettings& settings) {
   constexpr std::size_t least_key_points = 64, least_spheres = 48;
   if (!desc.key_points)
@@ -193,7 +194,7 @@ Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character
     recipe.auto_poses = desc.auto_pose_count ? desc.auto_pose_count : preset.auto_poses;
   if (recipe.poses == PoseMode::all) {
     recipe.variant_poses = recipe.clips.size() * recipe.samples_per_clip;
-    // Variants replace automatic poses, so that a bake does not take longer.
+    // Variant poses replace automatic poses instead of being added, so that a bake does not take longer.
     if (!desc.auto_pose_count) recipe.auto_poses -= std::min(recipe.variant_poses, recipe.auto_poses / 2);
   }
   if (recipe.poses == PoseMode::single_joint) recipe.single_joint_steps = preset.single_joint_steps;
@@ -222,7 +223,7 @@ JobStage stage_of(BakeStage stage) {
   return JobStage::casters;
 }
 
-// Returns the figures that a pipeline can use to reject a model.
+// Returns the error figures by which a build pipeline can decide to reject a model.
 Json figures_of(const Judgement& judgement) {
   return {
       {"on", text_of(judgement.source)},
@@ -233,7 +234,7 @@ Json figures_of(const Judgement& judgement) {
       {"worst_clip_over_static", judgement.clips.empty() ? 0 : judgement.clips.front().error.over_static()}};
 }
 
-// Returns the worst parts.
+// Returns the body parts with the largest errors.
 Json parts_of(std::span<const JudgedPart> parts) {
   constexpr std::size_t most = 8;
   Json rows = Json::array();
@@ -314,8 +315,8 @@ std::string report_text(const ImportedCharacter& character, const Recipe& recipe
   return dumped(j, 2);
 }
 
-// For a draft, fitting casters takes a few seconds. For the other presets, it takes a share of the bake's
-// time.
+// With the draft preset, fitting the casters takes a few seconds. With the other presets, it takes a larger
+// part of the bake's time.
 WorldCasterSettings caster_settings(const Recipe& recipe) {
   WorldCasterSettings settings;
   settings.seed = recipe.settings.seed;
@@ -338,8 +339,8 @@ Progress tracing(const StageReport& progress) {
       [&progress](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); };
 }
 
-// Every fourth recorded pose is not fitted, so that the model can be judged on it. If there are fewer than
-// 16, all are fitted.
+// Every fourth recorded pose is left out of the fit and used to judge the model. If there are fewer than 16
+// recorded poses, all are fitted.
 struct SplitRecording {
   std::vector<Pose> fitted, judged;
 };
@@ -359,16 +360,16 @@ JudgedPoses poses_to_judge(const ImportedCharacter& character, const Recipe& rec
   return {JudgedPoses::Source::recorded, std::move(recording.judged), {}, {}};
 }
 
-// Returns the poses that are most likely in use. They are the recorded poses, or evenly picked poses of the
-// clips, or, if the bake has only generated poses, the rest pose. If only a few of a file's clips are fitted,
-// the game shows other motion too, so automatic poses are added. Returns an empty list if the host passed
-// poses, and for comparisons with the paper.
+// Returns the poses that the game most likely uses. These are the recorded poses. If there are none, they are
+// poses picked at even intervals from the clips. If the bake has only generated poses, it is the rest pose.
+// If only a few of the file's clips are fitted, the game also shows other motion, so automatic poses are
+// added. Returns an empty list if the host passed poses, and for comparisons with the paper.
 std::vector<Pose> likely_poses(const ImportedCharacter& character, const Recipe& recipe,
                                const CalibrationPoses& calibration) {
   constexpr std::size_t most_of_clips = 240, least_of_clips = 16;
-  // With at least enough_clips fitted clips, these represent the other clips too. With fewer,
-  // automatic_for_each automatic poses are added per clip pose. docs/lab/character.md has measurements of
-  // both numbers.
+  // If at least enough_clips clips are fitted, they also represent the other clips. With fewer clips,
+  // automatic_for_each automatic poses are added for each clip pose. docs/lab/character.md has the
+  // measurements behind both constants.
   constexpr std::size_t enough_clips = 4, automatic_for_each = 3;
   if (!calibration.poses.empty()) return split_recording(calibration.poses).fitted;
   if (recipe.settings.fit != FitMethod::nook || recipe.auto_poses == 0 || recipe.extra_poses > 0) return {};
@@ -386,8 +387,8 @@ std::vector<Pose> likely_poses(const ImportedCharacter& character, const Recipe&
   return poses;
 }
 
-// Fits biases and scales to the poses in use. If there are few poses, uses more rays per pose, because the
-// noise would not average out.
+// Fits biases and scales to the poses that the game most likely uses. If there are few poses, the fit uses
+// more rays per pose, because the noise of few poses does not average out.
 void fit_to_use(CharacterModel& model, const ImportedCharacter& character, const Recipe& recipe,
                 const CalibrationPoses& calibration, const StageReport& progress) {
   constexpr std::size_t all_rays = 7680, least_rays = 32, most_rays = 256;
@@ -398,7 +399,7 @@ void fit_to_use(CharacterModel& model, const ImportedCharacter& character, const
                     tracing(progress));
 }
 
-// Hashes the matrices of poses. Returns an empty text if there are no poses.
+// Returns a hash of the poses' matrices, or an empty text if there are no poses.
 std::string hash_of_poses(std::span<const Pose> poses) {
   if (poses.empty()) return "";
   ContentHash hash;
@@ -411,8 +412,8 @@ std::string hash_of_poses(std::span<const Pose> poses) {
 BakeIdentity identify_character(const ImportedCharacter& character, const Recipe& recipe,
                                 std::span<const Pose> extra_poses, const CalibrationPoses& calibration) {
   nlohmann::json settings = nlohmann::json::parse(recipe_text(character, recipe));
-  settings.erase("nook");     // the identity already has both versions
-  settings.erase("content");  // the identity of every bake has it
+  settings.erase("nook");     // the identity already contains both versions
+  settings.erase("content");  // the identity of every bake already contains it
   // The text of a rig file can be long, so only its hash is stored.
   if (settings.contains("rig")) settings["rig"] = sha256(settings["rig"].dump());
   const WorldCasterSettings casters = caster_settings(recipe);
@@ -447,7 +448,8 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                                     });
   fit_to_use(baked.model, character, recipe, calibration, progress);
   WorldCasterReport caster_report;
-  // An object with one bone has positions instead of poses. We turn it in front of walls and lights.
+  // An object with one bone does not deform, it only moves. Its casters are fitted in several rotations of
+  // the object in front of walls and lights.
   const std::vector<Pose> caster_poses =
       character.mesh.bones.size() == 1 ? turned_poses(caster_settings(recipe).poses, 0) : std::move(poses);
   const std::vector<WorldCaster> casters = fit_world_casters(

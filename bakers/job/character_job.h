@@ -1,4 +1,5 @@
-// Bakes a character: makes a recipe from a descriptor, and a file and a report from a recipe.
+// Bakes a character. First makes a recipe from a descriptor, then makes the file and the report from the
+// recipe.
 #pragma once
 
 #include <nook/experimental/nook_trace.h>
@@ -11,15 +12,15 @@
 
 namespace nook::bake {
 
-// Makes the recipe for a job's descriptor, with the preset's values filled in.
+// Makes the recipe for a job's descriptor, and fills in the values of the preset.
 
 // Throws INVALID_ARGUMENT for unknown enum values, numbers out of range, unknown clips, and if there are no
 // poses.
 Recipe recipe_of(const nook_bake_character_desc& desc, const nook_bake_character_study_desc& study,
                  const ImportedCharacter& character);
 
-// Poses recorded in a game. At the end of a bake, the biases of the vertices are fitted to them. May be
-// empty.
+// Poses that were recorded in a game. At the end of a bake, the biases of the vertices are fitted to these
+// poses. The list may be empty.
 struct CalibrationPoses {
   std::vector<Pose> poses;
 };
@@ -33,8 +34,8 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                          std::span<const Pose> extra_poses, const StageReport& progress,
                          const CalibrationPoses& calibration = {});
 
-// Fits the biases of a baked model's vertices to ray tracing of recorded poses, and judges the model again.
-// Nothing else in the model is changed.
+// Ray traces recorded poses, fits the vertex biases of a baked model to the result, and judges the model
+// again. Only the biases and the judgement change.
 
 struct CalibrationTask {
   std::uint32_t rays = 64;  // for each vertex and pose
@@ -45,7 +46,7 @@ struct CalibrationTask {
 BakeIdentity identify_calibration(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
                                   const CalibrationPoses& calibration, const CalibrationTask& task);
 
-// The file stores the identity if it is not empty. Throws Failure: INVALID_ARGUMENT (no poses), BAD_FILE (the
+// If `identity` is not empty, the file stores it. Throws Failure: INVALID_ARGUMENT (no poses), BAD_FILE (the
 // recipe belongs to another character), CANCELLED.
 BakedFile calibrate_file(const ImportedCharacter& character, CharacterModel model,
                          const CalibrationPoses& calibration, const CalibrationTask& task,

@@ -16,14 +16,14 @@
 namespace nook::bake {
 
 struct ClipTask {
-  std::vector<std::string> clips;  // empty: all but T- and A-poses
+  std::vector<std::string> clips;  // empty: all clips except T-poses and A-poses
   double frames_per_second = 30;
   std::uint32_t rays = 128;
-  ClipTableSettings tables;  // its seed is also the seed of the rays
+  ClipTableSettings tables;  // tables.seed is also the random seed of the rays
 };
 
-// Returns the clips in byte order of their names. Throws Failure(INVALID_ARGUMENT) if the character has no
-// clip with a given name, or no clips at all.
+// Returns the indices of the chosen clips, sorted by the bytes of their names. Throws
+// Failure(INVALID_ARGUMENT) if the character has no clip with one of the names, or no clips at all.
 std::vector<std::size_t> chosen_clips(const ImportedCharacter& character, std::span<const std::string> names);
 
 // Throws Failure(INVALID_ARGUMENT) for a number out of its range or a NULL name.
@@ -38,8 +38,9 @@ ClipFrames frames_of(const ImportedCharacter& character, const ClipTask& task);
 BakeIdentity identify_clips(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
                             const ClipTask& task);
 
-// Pass the model of the character and the frames of the task. The file stores the identity if it is not
-// empty. The stage is JobStage::raytrace and counts frames. Throws Failure: CANCELLED.
+// `model` must be the model of the character, and `frames` must be the frames of the task. If `identity` is
+// not empty, the file stores it. Progress reports the stage JobStage::raytrace and counts frames. Throws
+// Failure: CANCELLED.
 BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterModel& model,
                           const ClipFrames& frames, const ClipTask& task, const StageReport& progress,
                           const BakeIdentity& identity = {});

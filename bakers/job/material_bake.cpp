@@ -49,8 +49,8 @@ Method method_of(nook_bake_method method) {
   }
 }
 
-// The heights of a structure are always known. The heights of measured data are known if the caller gives
-// them.
+// The heights of a built-in structure are always known. The heights of measured data are only known if the
+// caller passes them.
 ReliefSource relief_source_of(const nook_bake_material_desc& desc) {
   check_range("desc.relief", desc.relief, 0, 1);
   if (desc.heights && desc.relief == 0)
@@ -61,7 +61,7 @@ ReliefSource relief_source_of(const nook_bake_material_desc& desc) {
   return desc.meso || desc.heights ? ReliefSource::known : ReliefSource::estimated;
 }
 
-// Reads the heights of measured data. For a structure, ray tracing finds them.
+// Reads the heights of measured data. The heights of a structure come from ray tracing instead.
 void read_heights(const nook_bake_material_desc& desc, RawMaterial& raw) {
   if (!desc.heights) return;
   for (std::size_t x = 0; x < raw.width; ++x)
@@ -105,7 +105,8 @@ std::vector<float> coverage_of(const nook_bake_material_desc& desc, const RawMat
   return coverage;
 }
 
-// Converts RGB images to rows of lights and channels. Multiplies them by the coverage if there is one.
+// Converts RGB images to rows, one for each light and channel. If the descriptor has a coverage, multiplies
+// the values by it.
 void read_btf(const float* images, const std::vector<float>& coverage, RawMaterial& raw) {
   const std::size_t views = raw.views.size(), texels = raw.texels();
   raw.btf.resize(raw.light_rows() * views * texels);
@@ -202,7 +203,7 @@ CompressionSettings settings_of(const nook_bake_material_desc& desc) {
   return s;
 }
 
-// Returns true if a group of ranks is set. A group must be set completely or not at all.
+// Returns true if a group of ranks is set. Throws if only some ranks of the group are set.
 bool given(const char* names, std::initializer_list<std::uint32_t> ranks) {
   std::size_t zeros = 0;
   for (const std::uint32_t rank : ranks) zeros += rank == 0;
@@ -292,8 +293,8 @@ RawMaterial obtain(MaterialTask& task, const StageReport& progress) {
   return raw;
 }
 
-// Chooses the same defaults as `nook bake material`. `raw` has the images to fit. If there is a relief, they
-// are projected onto it.
+// Chooses the same defaults as `nook bake material`. `raw` contains the images to fit. If the material has a
+// relief, these images are already projected onto it.
 CompressionSettings settings_for(const MaterialTask& task, const RawMaterial& raw) {
   CompressionSettings s = task.settings;
   const bool has_ranks = s.method != Method::neural || has_votf(raw, s);

@@ -20,14 +20,15 @@
 
 namespace nook::bake {
 
-// Where a raw material comes from (a traced meso-structure or a file), and how to compress it.
+// Says where a raw material comes from (a traced meso-structure or a file), and how to compress it.
 
 struct MesoSource {
-  material::MesoParameters meso;                        // a built-in structure
-  std::optional<material::MesoSurface> tile;            // if set, replaces `meso`
-  std::uint32_t views = 100, lights = 0;                // numbers of directions; if `lights` is 0, there are
-                                                        // as many lights as views
-  float max_tilt_deg = material::default_max_tilt_deg;  // largest angle of directions to the normal, degrees
+  material::MesoParameters meso;              // a built-in structure
+  std::optional<material::MesoSurface> tile;  // if set, replaces `meso`
+  std::uint32_t views = 100,
+                lights = 0;  // counts of directions; if `lights` is 0, there are as many lights as views
+  float max_tilt_deg =
+      material::default_max_tilt_deg;  // largest angle between a direction and the normal, degrees
   material::TraceSettings trace;
 };
 
@@ -38,8 +39,8 @@ material::RawMaterial trace_meso_source(const MesoSource& source, const Progress
 struct MaterialTask {
   std::optional<material::MesoParameters> meso;  // empty: measured data
   material::TraceSettings trace;                 // used if `meso` is set
-  // Directions and sizes. For measured data, also the values, except in gaps. `coverage` defines the gaps;
-  // see fill_gaps() in raw_material.h.
+  // Contains the directions and sizes. For measured data, it also contains the values, except in gaps.
+  // `coverage` defines the gaps; see fill_gaps() in raw_material.h.
   material::RawMaterial raw;
   std::vector<float> coverage;  // empty: all 1
   material::CompressionSettings settings;
@@ -47,7 +48,7 @@ struct MaterialTask {
   double rank_threshold = 0.01;
 };
 
-// Throws INVALID_ARGUMENT for unknown names and enum values, numbers that are out of range or not finite, and
+// Throws INVALID_ARGUMENT for unknown names and enum values, values that are out of range or not finite, and
 // invalid directions.
 MaterialTask material_task_of(const nook_bake_material_desc& desc);
 
@@ -58,11 +59,12 @@ struct CompressedMaterial {
   material::Verdict verdict;
 };
 
-// Chooses the settings from the images to fit. If there is a relief, the images are projected onto it.
+// A function that chooses the settings. Its argument contains the images to fit. If the material has a
+// relief, these images are already projected onto it.
 using ChooseSettings = std::function<material::CompressionSettings(const material::RawMaterial& fitted)>;
 
-// The recipe contains the name `source`. If relief_source is not null, it also contains this name of the
-// height file. If the identity is not empty, it contains the identity. Throws what `choose` throws, and
+// The recipe stores the name `source`. If relief_source is not null, the recipe also stores this name of the
+// height file. If `identity` is not empty, the recipe stores it too. Throws what `choose` throws, and
 // Failure: CANCELLED.
 CompressedMaterial compress_to_file(const material::RawMaterial& raw, material::ReliefSource relief,
                                     const ChooseSettings& choose, const nlohmann::ordered_json& source,
@@ -70,8 +72,8 @@ CompressedMaterial compress_to_file(const material::RawMaterial& raw, material::
                                     const material::StageProgress& progress,
                                     const BakeIdentity& identity = {});
 
-// Moves the measured data out of the task. Throws Failure: INVALID_ARGUMENT (ranks that are not possible for
-// the data, a structure that cannot be built), CANCELLED.
+// Takes the measured data out of `task`, so call this only once per task. Throws Failure: INVALID_ARGUMENT
+// (the ranks are not possible for the data, or the structure cannot be built), CANCELLED.
 BakedFile bake_material(MaterialTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

@@ -116,7 +116,7 @@ BakeIdentity identify_material(const MaterialTask& task) {
   if (task.meso) settings["trace"] = settings_of(task.trace);
   ContentHash coverage;
   coverage.add_list(task.coverage);
-  // For a structure, the raw material has only sizes and directions at this time.
+  // For a structure, nothing has been traced yet, so the raw material contains only sizes and directions.
   return identify_bake(BakeKind::material, settings,
                        {{"raw", content_hash(task.raw)}, {"coverage", coverage.hex()}});
 }

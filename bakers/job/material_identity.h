@@ -1,4 +1,4 @@
-// Makes the identity of a material's bake from the settings of the compression and the content of the source.
+// Makes the identity of a material bake from the compression settings and the content of the source.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -14,10 +14,10 @@ std::string content_hash(const material::RawMaterial& raw);
 std::string content_hash(const material::MesoSurface& surface);
 std::string content_hash(const material::PbrMaps& maps);
 
-// Returns every setting of a compression.
+// Returns all compression settings.
 nlohmann::json settings_of(const material::CompressionSettings& settings);
 
-// Return the settings and the inputs of a source that is traced.
+// Return the settings and the inputs of a source that will be ray traced.
 nlohmann::json settings_of(const MesoSource& source);
 nlohmann::json inputs_of(const MesoSource& source);
 

@@ -24,7 +24,7 @@ std::string network_recipe(const nnao::DatasetSettings& data, const nnao::Traini
 }
 
 Json validation_rows(const nook::nnao::Network& network, const nnao::Dataset& data) {
-  // 20,000 points are enough for two digits of the error.
+  // About 20,000 points are enough to determine the error to two digits.
   const std::size_t stride = data.validation.size() / 20000 + 1;
   Json rows = Json::array();
   rows.push_back({{"method", "constant"},

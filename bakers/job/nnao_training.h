@@ -14,7 +14,7 @@
 
 namespace nook::bake {
 
-// Returns everything that the network's bits depend on, except the program itself, as one line of JSON.
+// Returns everything except the program itself that determines the bits of the network, as one line of JSON.
 std::string network_recipe(const nnao::DatasetSettings& data, const nnao::TrainingSettings& training);
 
 // Returns the error of the network on points that were not used for training: one row for a constant
@@ -25,12 +25,13 @@ nlohmann::ordered_json validation_rows(const nook::nnao::Network& network, const
 
 struct SpecularTraining {
   std::string header;
-  nnao::SpecularError error;  // over the validation samples
+  nnao::SpecularError error;  // measured on the validation samples
   std::size_t training_points = 0, validation_points = 0;
 };
 
-// Traces samples, and fits specular occlusion to them with the embedded network. Return false from `progress`
-// to stop. The function then throws Failure(CANCELLED). The bits do not depend on the number of threads.
+// Traces samples, and fits specular occlusion to them with the embedded network. To stop, return false from
+// `progress`. The function then throws Failure(CANCELLED). The result has the same bits with any number of
+// threads.
 SpecularTraining train_specular(const nnao::SpecularFitSettings& settings,
                                 const nnao::DatasetProgress& progress);
 

@@ -1,4 +1,4 @@
-// Bakes the probes of a file from settings: one probe from a map, or a grid in a scene.
+// Bakes the probes of a file: one probe from an environment map, or a grid of probes in a scene.
 #pragma once
 
 #include <functional>
@@ -11,7 +11,7 @@
 
 namespace nook::bake {
 
-// Hashes the texels of a map, 64 hexadecimal digits.
+// Returns a hash of the map's texels, as 64 hexadecimal digits.
 std::string content_hash(const Environment& map);
 
 struct MapProbe {
@@ -24,16 +24,16 @@ MapProbe bake_map_probe(const Environment& map, const probe::MapBakeSettings& se
 
 struct GridRefinement {
   std::uint32_t max_passes = 1;
-  double error = 0.01;         // the bake ends at this statistical error, see probe::GridBake::error
-  double preview_every_s = 0;  // seconds; 0: no previews
-  Progress progress;           // counts passes; return false to stop with Failure (CANCELLED)
+  double error = 0.01;  // the bake ends when the statistical error is this small, see probe::GridBake::error
+  double preview_every_s = 0;                 // seconds; 0: no previews
+  Progress progress;                          // counts passes; return false to stop with Failure (CANCELLED)
   std::function<void(double error)> preview;  // called between two passes
 };
 // Adds passes until the error is small enough or all passes are done. Returns the remaining error.
 double refine_grid(probe::GridBake& bake, const GridRefinement& refinement);
 
 // Adds walls to a baked grid, and fits the coefficients to the surfaces behind the walls. `probes` must be
-// harmonics of order 2. `progress` counts places.
+// spherical harmonics of order 2. `progress` counts the traced places.
 void add_walls(nook::probe::Probes& probes, const LitScene& scene, const probe::TrainingSettings& settings,
                const Progress& progress = {});
 

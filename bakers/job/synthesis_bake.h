@@ -12,7 +12,7 @@
 
 namespace nook::bake {
 
-// The part of a material that the plane may show, in texels.
+// The part of a material that may appear on the plane, in texels.
 struct Crop {
   std::uint32_t x = 0, y = 0;
   std::uint32_t width = 0, height = 0;  // 0: the whole material
@@ -28,7 +28,7 @@ struct SynthesisTask {
 };
 
 // Reads the appearance of texels from the bytes of a .nook file with a material or a raw material. Set
-// is_tiling if the material repeats without a seam. A crop is never treated as repeating. Throws Failure:
+// is_tiling if the material tiles without a seam. A crop is always treated as not tiling. Throws Failure:
 // INVALID_ARGUMENT (the crop exceeds the material, settings are out of range), BAD_FILE, FILE_VERSION.
 SynthesisTask synthesis_task(std::span<const std::byte> material, const Crop& crop, bool is_tiling,
                              const synthesis::SynthesisSettings& settings);
@@ -38,7 +38,7 @@ SynthesisTask synthesis_task_of(const nook_bake_synthesis_desc& desc);
 // Returns the identity of a call of bake_synthesis_file.
 BakeIdentity identify_synthesis(const SynthesisTask& task);
 
-// The stage is JobStage::fit and counts texels. Throws Failure: CANCELLED.
+// Progress reports the stage JobStage::fit and counts texels. Throws Failure: CANCELLED.
 BakedFile bake_synthesis_file(const SynthesisTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

@@ -30,7 +30,8 @@ std::string hash_text(std::uint64_t hash) {
   return text;
 }
 
-// Hashes the table of holes. The file stores the hash of the VOTF, and the table is made from the VOTF.
+// Returns a hash of the hole table, for the identity. The file stores only holes.votf_hash, the hash of the
+// VOTF that the table is made from.
 std::string hash_of_holes(const transfer::HoleTable& holes) {
   ContentHash hash;
   hash.add(holes.votf_hash);

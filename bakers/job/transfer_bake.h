@@ -15,31 +15,31 @@ namespace nook::bake {
 struct TransferTask {
   SurfaceMesh mesh;
   transfer::BakeSettings settings;
-  // If set, the paper's form is baked for this material.
+  // If set, bakes the paper's form for this material. Otherwise, bakes the separated form.
   std::shared_ptr<const nook::material::MaterialTables> material;
   transfer::PaperSettings paper;
   std::string source;                 // the name of the file, if there is one
-  MeshSelection meshes;               // the choice of meshes of the file
+  MeshSelection meshes;               // the meshes of the file that are baked
   std::string material_hash;          // SHA-256 of the material's file; empty without a material
   std::vector<std::string> warnings;  // warnings of the import
 };
 
-// Makes the mesh of a descriptor, and computes tangents if the descriptor has none. Throws INVALID_ARGUMENT
-// with the first error, including errors that transfer::check_bake finds.
+// Makes the mesh of a descriptor, and computes tangents if the descriptor has none. If there are errors,
+// throws INVALID_ARGUMENT with the first one. Errors include those that transfer::check_bake finds.
 TransferTask transfer_task_of(const nook_bake_transfer_desc& desc);
 
-// Makes the tables of the material in the bytes of a .nook file. Throws Failure: what read_material throws.
+// Makes the tables of the material in the bytes of a .nook file. Throws what read_material throws.
 std::shared_ptr<const nook::material::MaterialTables> tables_of_material(std::span<const std::byte> bytes);
-// Makes the holes of the material in the bytes of a .nook file, for BakeSettings. Throws Failure: what
-// read_material throws, and INVALID_ARGUMENT if the material has no VOTF.
+// Makes the hole table of the material in the bytes of a .nook file. BakeSettings needs this table. Throws
+// what read_material throws, and Failure(INVALID_ARGUMENT) if the material has no VOTF.
 std::shared_ptr<const transfer::HoleTable> holes_of_material(std::span<const std::byte> bytes);
 
 // Returns the identity of a call of bake_transfer_file.
 BakeIdentity identify_transfer(const TransferTask& task);
 
-// The stage is JobStage::raytrace and counts vertices, once for the direct light and once for each
-// reflection. In the paper's form, JobStage::fit then counts clusters. Throws Failure: INVALID_ARGUMENT,
-// CANCELLED.
+// Progress first reports the stage JobStage::raytrace. This stage counts all vertices once for the direct
+// light and once for each reflection. In the paper's form, the stage JobStage::fit follows and counts
+// clusters. Throws Failure: INVALID_ARGUMENT, CANCELLED.
 BakedFile bake_transfer_file(const TransferTask& task, const StageReport& progress);
 
 }  // namespace nook::bake

@@ -1,4 +1,5 @@
-// Bakes from the model of a baked character: adds bent normals, or makes the model of another mesh.
+// Bakes that start from the model of a baked character. They add bent normals to it, or make the model of a
+// mesh with less detail.
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -34,14 +35,15 @@ BentTask bent_task_of(const nook_bake_bent_desc& desc);
 BakeIdentity identify_bent(const ImportedCharacter& character, std::span<const std::byte> model_bytes,
                            const BentTask& task);
 
-// Adds occluded directions to the model of `character`, fitted to ray tracing in automatic poses and clips.
-// The clips are the ones that the model was fitted to, or all clips if it has no recipe. Nothing else in the
-// model is changed, except that its recipe stores the identity if that is not empty. The stage is
-// JobStage::raytrace and counts poses. Throws Failure: BAD_FILE (a recipe of another character), CANCELLED.
+// Adds occluded directions to the model of `character`. They are fitted to ray tracing in automatic poses and
+// in poses of clips. The clips are the ones that the model was fitted to, or all clips if the model has no
+// recipe. If `identity` is not empty, the recipe of the model stores it. Nothing else in the model is
+// changed. Progress reports the stage JobStage::raytrace and counts poses. Throws Failure: BAD_FILE (a recipe
+// of another character), CANCELLED.
 BakedFile bake_bent_file(const ImportedCharacter& character, CharacterModel model, const BentTask& task,
                          const StageReport& progress, const BakeIdentity& identity = {});
 
-// Makes the model for a mesh with less detail from the bake of the full mesh.
+// Makes the model for a mesh with less detail from the baked model of the full mesh.
 
 struct LodTask {
   std::size_t auto_poses = 200;
@@ -54,10 +56,11 @@ struct LodTask {
 BakeIdentity identify_lod(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
                           const LodTask& task);
 
-// `lod` must have the bones of the model in the same order, as meshes of the same rig do. The result has the
-// spheres, key points, levels and casters of the model. Its vertices are fitted to ray tracing of `lod` in
-// automatic poses and in poses of its clips. The stage is JobStage::raytrace and counts poses. Throws
-// Failure: BAD_FILE (no model, other bones), CANCELLED.
+// `lod` must have the bones of the model in the same order, which is true for meshes of the same rig. The
+// spheres, key points, levels and casters are copied from the model. The vertices are fitted to ray tracing
+// of `lod` in automatic poses and in poses of the clips of `lod`. Progress reports the stage
+// JobStage::raytrace and counts poses. Throws Failure: BAD_FILE (the bytes are not a model, or it has other
+// bones), CANCELLED.
 BakedFile bake_lod_file(const ImportedCharacter& lod, std::span<const std::byte> model_bytes,
                         const LodTask& task, const StageReport& progress);
 
