@@ -48,7 +48,8 @@ void append_row(std::string& text, int& line, std::span<const float, units> row)
 }
 
 constexpr std::array<float, 5> roughness{0.1f, 0.3f, 0.5f, 0.7f, 0.9f};
-// Angles count only where the reference's AO is below this. Elsewhere, the plain normal is good enough.
+// Angles are only measured where the reference AO is below this value. Elsewhere, the plain normal is good
+// enough.
 constexpr float dark_below = 0.7f;
 
 enum Method { plain_normal, nook_bent, reference, method_count };
@@ -59,20 +60,20 @@ struct Point {
   std::size_t vertex = 0;
   Vec3 to_viewer;
   float traced_ao = 1;
-  Vec3 traced_bent;  // unit, or zero where nothing is open
+  Vec3 traced_bent;  // unit length, or zero if no direction is open
   struct {
     float ao = 1;
     Vec3 bent;
   } said[method_count];
-  // Two references for each roughness.
+  // For each roughness, two independently traced references.
   std::array<bake::GlossyLight, 2> light[roughness.size()];
 };
 
-// Returns a random direction, uniform over the hemisphere, from which the vertex is visible. Returns zero if
-// no try finds one.
+// Returns a random direction from which the vertex is visible, uniform over the hemisphere. Returns zero if
+// no attempt finds one.
 Vec3 find_viewer(const bake::RayScene& scene, Vec3 origin, Vec3 normal, bake::Random& random) {
   constexpr int tries = 16;
-  constexpr float lowest = 0.05f;  // cosine; faces at a more oblique angle hardly cover a pixel
+  constexpr float lowest = 0.05f;  // smallest cosine; faces seen at a more oblique angle hardly cover a pixel
   const bake::Frame frame = bake::turned_frame(normal, 1, 0);
   for (int t = 0; t < tries; ++t) {
     const float up = random.between(lowest, 1), angle = random.between(0, 6.2831853f),
@@ -131,7 +132,7 @@ std::vector<Point> measure_pose(const bake::SkinnedMesh& mesh, const BentBody& b
   return points;
 }
 
-// Sums over the points of one method, for uniform light and each map.
+// The sums of one method over all points, for uniform light and for each map.
 struct Sums {
   std::vector<double> degrees;
   std::vector<std::array<double, roughness.size()>> bent, lagarde;

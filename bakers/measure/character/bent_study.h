@@ -18,15 +18,15 @@
 
 namespace nook::measure {
 
-// A posed character with the AO and bent normals that its model gives to a host. Each array has one entry per
-// welded vertex, in world space and metres. Normals have unit length.
+// A posed character, with the AO and the bent normals that a host gets from its model. Each array has one
+// entry per welded vertex. Positions are in world space, in metres. Normals have unit length.
 struct BentBody {
   std::vector<Vec3> position, normal, bent;
   std::vector<float> ao;
 };
 
-// Skins the occluded direction of each vertex like a host's vertex shader does. Throws Failure: UNSUPPORTED
-// (the model was baked without bent normals).
+// Skins the occluded direction of each vertex in the same way as a host's vertex shader. Throws Failure:
+// UNSUPPORTED (the model was baked without bent normals).
 BentBody bent_body(const bake::SkinnedMesh& mesh, const CharacterModel& model, const bake::Pose& pose);
 
 // Returns the weights of the shader function nook_scene_specular_occlusion, for use on the CPU.
@@ -42,38 +42,40 @@ struct GlossyMap {
 };
 
 struct BentStudy {
-  std::size_t points = 600;  // welded vertices per pose; each gets a viewer with a free line of sight
+  std::size_t points =
+      600;  // welded vertices per pose; each is seen from a random viewer with a free line of sight
   std::uint32_t rays = 512;  // per point, for AO and bent normal; each of the two references of a reflection
-                             // takes an eighth of it
+                             // uses an eighth of these rays
   std::uint64_t seed = 1;
 };
 
-// Returns a row for each method: "normal" uses the plain normal in place of the bent normal, "nook" uses the
-// model, and "reference" uses the traced AO and bent normal. The keys are method, map ("visibility" under
-// uniform light, otherwise a map's name), poses, points; angle_median, angle_mean and angle_p90 (degrees,
-// where the traced AO is below 0.7); specular_mse, lagarde_mse and specular_ratio, and specular_mse and
-// lagarde_mse for each roughness from 0.1 to 0.9. Under a map, the errors compare radiance, in units of the
-// map's mean radiance. Each squared error is the product of the errors against two references that are traced
-// with different rays, so it has no noise floor. Throws Failure: UNSUPPORTED (the model was baked without
+// Returns a row for each method. The method "normal" uses the plain normal in place of the bent normal. The
+// method "nook" uses the model. The method "reference" uses the traced AO and bent normal. Each row has these
+// keys: method; map, which is "visibility" for uniform light and otherwise the name of a map; poses and
+// points; angle_median, angle_mean and angle_p90, in degrees, measured where the traced AO is below 0.7;
+// specular_mse, lagarde_mse and specular_ratio; and specular_mse and lagarde_mse for each roughness from 0.1
+// to 0.9. Under a map, the errors are differences of radiance, in units of the map's mean radiance. Two
+// references are traced with different rays. Each squared error is the product of the errors against these
+// two references, so that it has no noise floor. Throws Failure: UNSUPPORTED (the model was baked without
 // bent normals), CANCELLED.
 nlohmann::ordered_json bent_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                  std::span<const bake::Pose> poses, std::span<const GlossyMap> maps,
                                  const BentStudy& study, const bake::Progress& progress = {});
 
-// Returns the points that bent_rows measures without maps. `nook train bent` fits the weights of the shader
-// to these points. The inputs of the network are the model's AO and bent normal. Throws the same failures as
-// bent_rows.
+// Returns the points that bent_rows measures under uniform light. `nook train bent` fits the weights of the
+// shader to these points. The inputs of the fitted network are the AO and the bent normal of the model.
+// Throws the same failures as bent_rows.
 std::vector<bake::nnao::SpecularSample> bent_samples(const bake::SkinnedMesh& mesh,
                                                      const CharacterModel& model,
                                                      std::span<const bake::Pose> poses,
                                                      const BentStudy& study,
                                                      const bake::Progress& progress = {});
 
-// Returns the mean over all directions and channels.
+// Returns the mean radiance of the map over all directions and channels.
 double mean_radiance(const bake::Environment& map);
 
-// Returns a map of a few texels, without the suns. Each texel is the mean of the texels of `with_suns` that
-// it covers.
+// Returns a low-resolution copy of the map without its suns. Each texel is the mean of the texels of
+// `with_suns` that it covers.
 bake::Environment coarse_map(const bake::Environment& with_suns, std::uint32_t width);
 
 }  // namespace nook::measure

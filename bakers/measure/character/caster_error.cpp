@@ -79,8 +79,9 @@ class LinkedPair {
   nook_instance_id receiver_ = 0, caster_ = 0;
 };
 
-// Returns true for each vertex of the receiver that lies outside the caster. For a vertex inside a closed
-// body, nearly all rays of both hemispheres hit that body; a few escape through openings at hair and cuffs.
+// Returns true for each vertex of the receiver that lies outside the caster. If a vertex is inside a closed
+// body, nearly all rays in all directions hit that body. A few rays escape through openings at hair and
+// cuffs.
 std::vector<bool> outside_caster(const SkinnedMesh& mesh, const BodyPair& pair, std::uint64_t seed) {
   constexpr float covered = 0.1f;
   constexpr std::uint32_t rays = 64;
@@ -101,12 +102,13 @@ std::vector<bool> outside_caster(const SkinnedMesh& mesh, const BodyPair& pair, 
   return outside;
 }
 
-// Sums over the vertices of pairs, each with its area.
+// Sums over the vertices of pairs, weighted by the area of each vertex.
 struct Sums {
   double area = 0, dark = 0, traced = 0, squared = 0, none = 0;
   double darkened_area = 0, darkened_squared = 0;
 
-  // traced_1 and traced_2 are the darkening from each half of the rays. Their product has no noise floor.
+  // traced_1 and traced_2 are the darkening as traced by each half of the rays. A product of errors against
+  // both halves has no noise floor.
   void add(double weight, double darkening, double traced_1, double traced_2) {
     area += weight;
     dark += weight * darkening;
@@ -119,7 +121,7 @@ struct Sums {
     darkened_squared += weight * error;
   }
   void write(CasterRow& row) const {
-    if (!(area > 0)) return;  // all of the body is inside the other one
+    if (!(area > 0)) return;  // the whole body is inside the other one
     row.darkening = dark / area;
     row.darkening_traced = traced / area;
     row.mse_over_none = none > 0 ? squared / none : 0;
@@ -127,7 +129,7 @@ struct Sums {
   }
 };
 
-// The study of one distance.
+// Measures all pairs at one distance.
 class CasterDistance {
  public:
   CasterDistance(const SkinnedMesh& mesh, const CharacterModel& model)
@@ -159,7 +161,7 @@ class CasterDistance {
       paper_sums_.add(area, double(by_paper[i]), one, two);
     }
   }
-  // Appends the rows of the pairs since the last call.
+  // Appends the rows for the pairs that were added since the last call.
   void finish(float distance_m, std::vector<CasterRow>& rows) {
     CasterRow by_composed, by_paper;
     by_composed.form = "composed";

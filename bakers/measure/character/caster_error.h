@@ -1,5 +1,5 @@
-// Measures how a character darkens a neighbour. One caster stands at several distances. Each form of the
-// model is compared with ray tracing.
+// Measures how a character darkens a neighbour, with one caster at several distances. Compares each form of
+// the model with ray tracing.
 #pragma once
 
 #include <cstdint>
@@ -12,21 +12,23 @@
 
 namespace nook::measure {
 
-// Means are weighted by area. They cover all bearings, all poses, and the receiver's vertices outside the
-// neighbour. Darkening is the AO of the body alone minus its AO beside the neighbour.
+// All means are weighted by area. They are taken over all bearings, all poses, and those vertices of the
+// receiver that are outside the neighbour. Darkening is the AO of the body without the neighbour minus its AO
+// with the neighbour.
 struct CasterRow {
   float distance_m = 0;      // between the two bodies' centres, along the ground
-  float distance_radii = 0;  // the same in bounding radii of the body
+  float distance_radii = 0;  // the same distance in bounding radii of the body
   const char* form = "";     // "composed" or "paper"
   double darkening = 0;
   double darkening_traced = 0;
-  double mse_over_none = 0;  // mean squared error of the darkening, divided by the error without any
-                             // darkening; both without the noise of the rays
+  double mse_over_none = 0;  // mean squared error of the darkening, divided by the error of a method that
+                             // never darkens; the noise of the rays is removed from both
   double rms_darkened = 0;   // root mean squared error where the traced darkening is above darkened_from
-  double share_inside = 0;   // share of the area that is left out, because it is inside the neighbour, where
-                             // no camera sees it
-  // How much a scene's default far_error changes the AO: the root mean square over vertices, weighted by
-  // area. It includes the neighbour's spheres and the body's own far spheres.
+  double share_inside =
+      0;  // fraction of the area that is left out, because it is inside the neighbour and no camera sees it
+  // The change of AO that the default far_error of a scene causes, as a root mean square over vertices,
+  // weighted by area. It includes the effect of grouping the neighbour's spheres and of grouping the body's
+  // own far spheres.
   double change_of_groups = 0;
 
   static constexpr float darkened_from = 0.02f;
@@ -36,8 +38,8 @@ struct CasterStudy {
   std::vector<float> distances{0.3f, 0.5f, 0.75f, 1, 2, 3, 5, 10};
   bool in_radii = false;  // distances are in bounding radii of the body instead of metres
   std::size_t bearings = 6;
-  std::uint32_t rays = 256;  // per vertex, in two halves; the same rays are used with and without the
-                             // neighbour
+  std::uint32_t rays =
+      256;  // per vertex, traced in two halves; the same rays are used with and without the neighbour
   std::uint64_t seed = 1;
 };
 
@@ -49,8 +51,8 @@ struct BodyPair {
   bake::Pose receiver, caster;
 };
 
-// Takes pose p for the receiver and the next pose for the caster. The caster is turned, and stands at a
-// bearing from the receiver's centre.
+// Uses pose `p` for the receiver and the next pose for the caster. Turns the caster, and places it in a
+// direction (the bearing) from the receiver's centre.
 BodyPair body_pair(const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t p,
                    std::size_t bearing, std::size_t bearings, float distance_m);
 
@@ -69,14 +71,14 @@ TracedPair trace_pair(const bake::SkinnedMesh& mesh, const BodyPair& pair, std::
 // Returns the AO that the runtime computes for a receiver with one linked caster. Nothing is culled.
 std::vector<float> linked_ao(const CharacterModel& model, const BodyPair& pair);
 
-// Each pose is used for the receiver, and the next one for the caster. Both stand on the ground, with +y up.
-// Returns two rows per distance.
+// Forms one pair for each pose: the receiver has this pose, and the caster has the next pose. Both stand on
+// the ground, with +y up. Returns two rows per distance, one for each form.
 std::vector<CasterRow> measure_casters(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const bake::Pose> poses, const CasterStudy& study,
                                        const bake::Progress& progress = {});
 
-// Measures one pair. The means are over the vertices of both bodies, and each body is darkened by the other
-// one. Returns two rows, whose distance is measured along the ground.
+// Measures one pair. Each body is darkened by the other one, and the means are taken over the vertices of
+// both. Returns two rows, one for each form. The distance in these rows is measured along the ground.
 std::vector<CasterRow> measure_pair(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                     const BodyPair& pair, const CasterStudy& study);
 

@@ -25,7 +25,8 @@ float linear_ao(const CharacterModel& model, std::size_t vertex, const float* sh
   return std::clamp(1 - dark, 0.0f, 1.0f);
 }
 
-// Sums of squared errors of one pose. Each pose has its own, so that they can be added in order.
+// Sums of squared errors of one pose. Each pose has its own sums, so that they can be added in the order of
+// the poses.
 struct ErrorSums {
   double all = 0, visible = 0, visible_area = 0, area = 0, body = 0, hands = 0;
 
@@ -41,7 +42,7 @@ struct ErrorSums {
   }
 };
 
-// The visible vertex-poses: their number, and the sum of their areas.
+// The count of visible vertex-poses, and the sum of their areas.
 struct VisibleTotal {
   std::size_t count = 0;
   double area = 0;
@@ -76,7 +77,8 @@ double truth_at(const AoTargets& targets, std::size_t pose, std::size_t vertex) 
   return double(targets.row(pose)[vertex]) * double(AoTargets::scale);
 }
 
-// The mean ray-traced AO of every vertex: over all poses, and over the poses in which the vertex is visible.
+// For every vertex, the mean ray-traced AO over all poses, and the mean over the poses in which the vertex is
+// visible.
 struct Oracle {
   std::vector<double> mean, visible_mean;
   VisibleTotal visible_total;

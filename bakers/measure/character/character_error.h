@@ -19,12 +19,14 @@ namespace nook::measure {
 inline constexpr double visible_truth = double(bake::hidden_below);
 
 struct ErrorColumns {
-  double mse = 0;          // over all welded vertices and poses, as in the paper
-  double mse_visible = 0;  // over vertex-poses whose traced AO is at least visible_truth; 0 if there are none
-  double mse_visible_area = 0;  // like mse_visible, but weighted by rest Voronoi area, as the eye sees it
-  double mse_area = 0;          // weighted by rest Voronoi area
-  double mse_body = 0;          // vertices outside the hands (see hand_vertices)
-  double mse_hands = 0;         // vertices of the hands; 0 if there are none
+  double mse = 0;  // over all welded vertices and poses, as in the paper
+  double mse_visible =
+      0;  // only over vertex-poses whose traced AO is at least visible_truth; 0 if there are none
+  double mse_visible_area =
+      0;  // like mse_visible, but weighted by rest Voronoi area, because the eye sees areas and not vertices
+  double mse_area = 0;   // weighted by rest Voronoi area
+  double mse_body = 0;   // only over vertices outside the hands (see hand_vertices)
+  double mse_hands = 0;  // only over vertices of the hands; 0 if there are none
 };
 
 // Squared errors of one pose, summed over its visible vertices.
@@ -43,19 +45,20 @@ struct CharacterEvaluation {
   std::vector<PoseErrorSums> pose_visible;  // one entry per pose
   bake::AoTargets truth;                    // the traced targets, so that other methods can be measured on
                                             // them
-  std::vector<float> vertex_rms;            // error of the model per welded vertex, as pictures show it
+  std::vector<float> vertex_rms;            // error of the model per welded vertex; pictures show it
 };
 
-// Returns a model's clamped prediction for one pose, one value per welded vertex. The scalar reference
-// computes it.
+// Returns the clamped AO that the model predicts for one pose, one value per welded vertex. Computes it with
+// the scalar reference implementation.
 std::vector<float> predict_ao(const CharacterModel& model, std::span<const Mat3x4> bones);
 
-// Measures the error against the given targets, which have one row per pose. The fields `rays` and
-// noise_floor_mse of the result stay 0.
+// Measures the error against the given targets, which have one row per pose. In the result, the fields `rays`
+// and `noise_floor_mse` are 0.
 CharacterEvaluation score_character(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                     std::span<const bake::Pose> poses, bake::AoTargets targets);
 
-// Traces targets with `rays` rays per vertex. The caller gives another seed than the fit used.
+// Traces targets with `rays` rays per vertex and measures the error against them. Pass a seed that differs
+// from the seed of the fit.
 CharacterEvaluation evaluate_character(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const bake::Pose> poses, std::uint32_t rays,
                                        std::uint64_t seed, const bake::Progress& progress = {});
@@ -65,32 +68,32 @@ CharacterEvaluation evaluate_character(const bake::SkinnedMesh& mesh, const Char
 // rounding.
 struct UpdateErrors {
   double mse = 0;          // over all welded vertices and poses
-  double mse_visible = 0;  // over those vertex-poses whose truth is at least visible_truth
+  double mse_visible = 0;  // only over vertex-poses whose traced AO is at least visible_truth
 };
 UpdateErrors measure_update(const CharacterModel& model, std::span<const bake::Pose> poses,
                             const bake::AoTargets& truth, float far_error);
 
-// Splits vertices for mse_body and mse_hands. Returns true for a vertex if the bone with most of its weight
-// has a hand's role or is below such a bone.
+// Finds the vertices of the hands, for mse_body and mse_hands. Returns true for a vertex if the bone with its
+// largest weight has the role of a hand, or is a descendant of such a bone.
 std::vector<char> hand_vertices(const bake::SkinnedMesh& mesh);
 
-// Another method than the model: a fitted regression from pose to AO, which can be evaluated in any pose.
+// A method to compare the model with: a fitted regression that computes AO from any pose.
 class PoseRegression {
  public:
   virtual ~PoseRegression() = default;
   // Returns one value per welded vertex, clamped to [0, 1].
   virtual std::vector<float> predict(const bake::Pose& pose) const = 0;
-  virtual std::size_t model_bytes() const = 0;  // when stored as half floats
+  virtual std::size_t model_bytes() const = 0;  // size if the coefficients are stored as half floats
   virtual std::string description() const = 0;  // what cross-validation chose, for reports
 };
 
 struct RegressionError {
   double mse = 0;          // over all welded vertices and poses
-  double mse_visible = 0;  // over those vertex-poses whose truth is at least visible_truth
+  double mse_visible = 0;  // only over vertex-poses whose traced AO is at least visible_truth
   double mse_area = 0;     // weighted by vertex_area
 };
 
-// Compares clamped predictions with targets of the same poses.
+// Compares the clamped predictions for `poses` with the targets for the same poses.
 RegressionError measure_regression(const PoseRegression& regression, std::span<const bake::Pose> poses,
                                    const bake::AoTargets& targets, std::span<const float> vertex_area);
 

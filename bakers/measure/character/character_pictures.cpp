@@ -23,7 +23,7 @@ namespace {
 using namespace bake;
 
 constexpr int width_px = 420, height_px = 760, pair_width_px = 560;
-constexpr float error_gain = 4;  // an AO error of 0.25 is the upper end of the colour ramp
+constexpr float error_gain = 4;  // an AO error of 0.25 has the colour at the upper end of the ramp
 
 Picture draw_pose(const SkinnedMesh& mesh, const Pose& pose, std::span<const float> traced,
                   std::span<const float> predicted) {
@@ -50,7 +50,7 @@ Picture draw_rms(const SkinnedMesh& mesh, std::span<const float> vertex_rms) {
   return side_by_side(panels);
 }
 
-// The vertices of both bodies, the receiver's first.
+// The vertices of both bodies. The vertices of the receiver come first.
 struct DrawnPair {
   TriangleSoup soup;
   std::vector<float> traced, predicted, error;
@@ -77,7 +77,7 @@ DrawnPair drawn_pair(const SkinnedMesh& mesh, const CharacterModel& model, const
   return drawn;
 }
 
-// Returns a camera whose picture contains both bodies from any side.
+// Returns a camera whose picture contains both bodies, whichever side it looks from.
 BodyCamera pair_camera(std::span<const Vec3> position, Vec3 towards) {
   Vec3 low = position[0], high = position[0];
   for (const Vec3 p : position) {
@@ -104,7 +104,7 @@ Picture draw_pair(const DrawnPair& pair) {
 }
 
 constexpr Vec3 to_viewer{0, 0, 1};
-constexpr int samples = 2;  // along the side of a pixel
+constexpr int samples = 2;  // along each side of a pixel
 constexpr float margin = 1.04f, middle_grey = 0.3f, background = 0.05f;
 // A vertex normal can face away from the viewer although its triangle faces the viewer.
 constexpr float least_facing = 0.02f;
@@ -112,7 +112,7 @@ constexpr float least_facing = 0.02f;
 enum Panel { open, lagarde, bent, traced, panel_count };
 using Radiance = std::array<Vec3, panel_count>;
 
-// The middle of the body, and a scale at which it fills the picture.
+// The middle of the body, and the scale at which the body fills the picture.
 struct View {
   Vec3 centre;
   float metres_per_pixel = 1, beyond_z = 0;
@@ -137,7 +137,7 @@ struct Stage {
   float origin_offset = 0;
 };
 
-// Returns the radiance that each panel shows where a ray hits.
+// Returns the radiance of each panel for a pixel whose ray hits the body.
 Radiance shade(const Stage& stage, const bake::RayHit& hit, Vec3 position, const GlossyMap& map,
                const GlossyPictureSettings& settings, std::uint64_t seed) {
   const auto& corner = stage.mesh.triangle[hit.triangle];

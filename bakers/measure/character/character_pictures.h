@@ -15,15 +15,16 @@
 
 namespace nook::measure {
 
-// Writes pose_0.png, pose_1.png, ... for `count` evenly picked poses. Each shows the front traced, the front
-// predicted and the front |error| x 4, then the same from the back. Also writes rms.png, which shows the
-// error over all poses (vertex_rms) x 4 on the rest pose, from the front and the back. Creates the directory.
+// Writes pose_0.png, pose_1.png, ... for `count` poses that are picked at even intervals. Each picture has
+// six panels: traced AO, predicted AO and |error| x 4 from the front, then the same three from the back. Also
+// writes rms.png. It shows vertex_rms x 4, which is the error over all poses, on the rest pose from the front
+// and the back. Creates the directory.
 void write_pictures(const std::filesystem::path& directory, const bake::SkinnedMesh& mesh,
                     const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t count,
                     std::span<const float> vertex_rms, std::uint32_t rays, std::uint64_t seed);
 
-// Draws two bodies that darken themselves and each other. The panels show traced, predicted and |error| x 4
-// obliquely from the front, then the same from behind. Creates the file's directory.
+// Draws two bodies that darken themselves and each other. The panels show traced AO, predicted AO and |error|
+// x 4, obliquely from the front and then from behind. Creates the file's directory.
 void write_pair_picture(const std::filesystem::path& path, const bake::SkinnedMesh& mesh,
                         const CharacterModel& model, const BodyPair& pair, const CasterStudy& study);
 
@@ -34,10 +35,10 @@ struct GlossyPictureSettings {
   std::uint64_t seed = 1;
 };
 
-// Draws four panels from the front. They show reflections without occlusion, with Lagarde's formula and the
-// model's AO, with the model's AO and bent normals, and path traced. The body is a colourless mirror with the
-// given roughness. The map's mean radiance is shown as middle grey. Throws Failure: UNSUPPORTED (the model
-// was baked without bent normals).
+// Draws four panels from the front. They show the reflections without occlusion, then with Lagarde's formula
+// and the model's AO, then with the model's AO and bent normals, and finally path traced. The body is a
+// colourless mirror with the given roughness. Middle grey stands for the mean radiance of the map. Throws
+// Failure: UNSUPPORTED (the model was baked without bent normals).
 bake::Picture glossy_picture(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                              const bake::Pose& pose, const GlossyMap& map,
                              const GlossyPictureSettings& settings);

@@ -82,8 +82,8 @@ Json model_row(const BakedCharacter& baked, const EvaluatedPoses& measured, cons
   return row;
 }
 
-// Measures errors that are near the noise of the rays a second time, without the noise. Each squared error is
-// the product of the errors against two independent tracings.
+// If the errors are close to the noise of the rays, measures them a second time without the noise. To do so,
+// each squared error is computed as the product of the errors against two independent tracings.
 void add_errors_without_noise(Json& row, const BakedCharacter& baked, std::span<const Pose> poses,
                               const CharacterReportSettings& settings, const CharacterEvaluation& e,
                               const StageProgress& progress) {
@@ -111,7 +111,7 @@ void add_surface_errors(Json& row, const BakedCharacter& baked, std::span<const 
   row["ratio_to_static_surface"] = ratio(errors.model, errors.static_bake);
 }
 
-// Fits other methods to the model's own training poses and measures them on the same targets.
+// Fits other methods to the training poses of the model, and measures them on the same targets as the model.
 void add_peers(Json& row, const ImportedCharacter& character, const Recipe* recipe,
                std::span<const Pose> measured, const AoTargets& truth,
                const CharacterReportSettings& settings, const StageProgress& progress) {
@@ -136,7 +136,8 @@ void add_peers(Json& row, const ImportedCharacter& character, const Recipe* reci
   }
 }
 
-// Adds the errors of the runtime's update, with the default far_error of scenes and with exact sums.
+// Adds the errors of the runtime's update, once with the default far_error of scenes and once with exact
+// sums.
 void add_update_errors(Json& row, const CharacterModel& model, std::span<const Pose> poses,
                        const AoTargets& truth) {
   const UpdateErrors by_default = measure_update(model, poses, truth, SceneSettings().far_error),
@@ -178,7 +179,7 @@ std::vector<Pose> caster_poses(const ImportedCharacter& character, std::size_t c
   const std::vector<std::size_t> clips = motion_clips(character);
   std::vector<Pose> poses;
   for (std::size_t i = 0; i < clips.size(); ++i) {
-    // `count` poses are spread evenly over the clips. Computes which of them belong to this clip.
+    // `count` poses are spread evenly over all clips. This computes which of these poses belong to clip `i`.
     const std::size_t first = (i * count + clips.size() - 1) / clips.size(),
                       end = ((i + 1) * count + clips.size() - 1) / clips.size();
     const std::vector<Pose> own = clip_poses(character, {&clips[i], 1}, end - first);

@@ -35,8 +35,8 @@ struct CharacterReportSettings {
   std::span<const CharacterPeer> peers;
 };
 
-// Called at the start of each stage. The function that it returns is called at every step of the stage. If
-// that function returns false, the measurement stops with Failure (CANCELLED).
+// The measurement calls this function at the start of each stage, and calls the returned function at every
+// step of the stage. If the returned function returns false, the measurement stops with Failure (CANCELLED).
 using StageProgress = std::function<bake::Progress(const char* stage)>;
 
 struct CharacterReport {
@@ -44,8 +44,8 @@ struct CharacterReport {
   CharacterEvaluation evaluation;
 };
 
-// Throws Failure (INVALID_ARGUMENT) if `peers` need the model's training poses and the recipe cannot
-// reproduce them.
+// Throws Failure (INVALID_ARGUMENT) if `peers` is not empty and the recipe cannot reproduce the model's
+// training poses, which the other methods are fitted to.
 CharacterReport measure_character(const BakedCharacter& baked, const bake::Recipe* recipe,
                                   const EvaluatedPoses& measured, const CharacterReportSettings& settings,
                                   const StageProgress& progress);
@@ -55,9 +55,9 @@ std::uint64_t evaluation_ray_seed(std::uint64_t seed);
 
 // Returns poses spread over the motion clips, or the rest pose if there are no clips.
 std::vector<bake::Pose> caster_poses(const bake::ImportedCharacter& character, std::size_t count);
-// Takes two bodies in the poses in the middle of two clips. Moves the caster from the receiver's centre by
-// `offset` (metres) and turns it about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an unknown
-// clip.
+// Makes a pair of bodies. Each has the pose in the middle of its clip. Moves the caster from the receiver's
+// centre by `offset` (metres) and turns it about the vertical axis. Throws Failure (INVALID_ARGUMENT) for an
+// unknown clip.
 BodyPair contact_pair(const BakedCharacter& baked, const std::string& receiver_clip,
                       const std::string& caster_clip, Vec3 offset, float turn_degrees);
 nlohmann::ordered_json caster_rows(const std::vector<CasterRow>& rows);

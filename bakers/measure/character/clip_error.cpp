@@ -17,13 +17,13 @@ namespace {
 
 using namespace bake;
 
-// A time in a clip of the set, and the file's pose at that time.
+// A time in a clip of the set, and the pose that the character's file has at that time.
 struct TimedPose {
   FrameMix mix;
   Pose pose;
 };
 
-// Returns the frames for offset 0, and the times halfway between frames for offset 0.5.
+// Returns the poses at the frames if `offset` is 0, and the poses halfway between frames if it is 0.5.
 std::vector<TimedPose> timed_poses(const ImportedCharacter& character, const ClipSet& set, double offset,
                                    std::size_t most) {
   struct Place {
@@ -76,7 +76,7 @@ double mean(std::span<const float> values) {
   return sum / double(values.size());
 }
 
-// Two bodies that the runtime updates, posed by clips or by their bones.
+// Two bodies that the runtime updates. They are posed either by baked clips or by their bones.
 class Pair {
  public:
   Pair(const CharacterModel& model, const ClipSet& set)
@@ -182,7 +182,8 @@ ClipErrorRow measure_neighbour(const SkinnedMesh& mesh, const CharacterModel& mo
     if (progress && !progress(p, timed.size()))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while measuring neighbours");
     const TimedPose& receiver = timed[p];
-    // The caster is in another clip. The golden angle spreads its bearings and turns.
+    // The caster's pose is half the list away, usually in another clip. The golden angle spreads its bearings
+    // and turns evenly.
     const TimedPose& caster = timed[(p + timed.size() / 2 + 1) % timed.size()];
     const float turn = std::numbers::pi_v<float> * (3 - std::sqrt(5.0f)) * float(p);
     const Mat3x4 place = place_of(model, receiver.pose, caster.pose, distance_m, turn, 1.7f * turn);

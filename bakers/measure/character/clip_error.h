@@ -16,9 +16,9 @@ namespace nook::measure {
 struct ClipStudy {
   std::uint32_t rays = 128;
   std::uint64_t seed = 1;
-  std::size_t max_poses = 200;  // for each row, evenly picked
+  std::size_t max_poses = 200;  // for each row; poses are picked at even intervals
   std::vector<float> distances_m{0.75f, 1.5f};
-  std::size_t max_pairs = 24;  // for each distance, evenly picked
+  std::size_t max_pairs = 24;  // for each distance; pairs are picked at even intervals
 };
 
 struct ClipErrors {
@@ -27,11 +27,12 @@ struct ClipErrors {
 
 struct ClipErrorRow {
   std::string at;        // "frames", "half_way", "neighbour"
-  float distance_m = 0;  // of a neighbour
+  float distance_m = 0;  // distance of the neighbour, for rows with one
   std::size_t poses = 0;
   double visible_share = 0, noise_floor_mse = 0;
-  ClipErrors clips, live, unlinked;  // unlinked: clips without the neighbour's darkening
-  // The darkening by the neighbour, averaged over the vertices.
+  ClipErrors clips, live, unlinked;  // unlinked: like clips, but without the neighbour's darkening
+  // The darkening by the neighbour, averaged over the vertices: with clips, with the live model, and ray
+  // traced.
   double darkening = 0, darkening_live = 0, darkening_traced = 0;
 };
 

@@ -58,7 +58,7 @@ EvaluatedPoses choose_poses(const ImportedCharacter& character, const Recipe* re
     return result;
   }
   if (choice.clips.empty() && character.mesh.bones.size() == 1 && motion_clips(character).empty()) {
-    // The offset of 0.5 puts these turns halfway between the turns of the bake.
+    // The offset of 0.5 places these rotations halfway between the rotations that the bake used.
     result.poses = turned_poses(choice.most ? choice.most : choice.samples_per_clip, 0.5f);
     result.protocol = "turned";
     return result;

@@ -1,5 +1,5 @@
-// What an evaluation of a character measures: the character's file, the model that was baked from it, and the
-// poses.
+// The inputs of an evaluation of a character: the character's file, the model that was baked from it, and the
+// poses to measure.
 #pragma once
 
 #include <cstddef>
@@ -26,22 +26,24 @@ BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vect
 
 // Which poses to measure.
 struct PoseChoice {
-  bool training = false;           // the poses that the model was fitted to, reproduced from its recipe
-  std::vector<std::string> clips;  // only these clips of the file; if empty, choose_poses chooses the clips
+  bool training = false;  // true: use the poses that the model was fitted to, reproduced from its recipe
+  std::vector<std::string>
+      clips;  // use only these clips of the file; if empty, choose_poses chooses the clips
   std::size_t samples_per_clip = 20;
-  std::size_t most = 0;  // number of poses, about, evenly picked; 0: all
+  std::size_t most = 0;  // approximate number of poses, picked at even intervals; 0: all
 };
 
 struct EvaluatedPoses {
   std::vector<bake::Pose> poses;
   std::string protocol;            // "unseen clips", "all clips", "named clips", "training poses", "turned"
-  std::vector<std::string> clips;  // measured
-  std::vector<std::size_t> clip;   // of each pose, an index into clips; empty for training poses
+  std::vector<std::string> clips;  // names of the measured clips
+  std::vector<std::size_t> clip;   // for each pose, an index into `clips`; empty for training poses
 };
 
-// If no clips are named, measures the motion clips that the recipe did not use, or all motion clips if the
-// recipe used all. `recipe` may be null if none could be read. Then all motion clips are measured. An object
-// with one bone and no clips is turned about the vertical axis instead. Throws Failure (INVALID_ARGUMENT).
+// If no clips are named, chooses the motion clips that the recipe did not use. If the recipe used all motion
+// clips, or if `recipe` is null because the model has none, chooses all motion clips. If the character is an
+// object with one bone and no clips, the poses are rotations about the vertical axis. Throws Failure
+// (INVALID_ARGUMENT).
 EvaluatedPoses choose_poses(const bake::ImportedCharacter& character, const bake::Recipe* recipe,
                             const PoseChoice& choice);
 

@@ -19,7 +19,8 @@ std::vector<std::uint32_t> simplified_indices(const SkinnedMesh& mesh, double sh
   std::vector<std::uint32_t> indices;
   for (const auto& t : mesh.triangle) indices.insert(indices.end(), t.begin(), t.end());
   const auto target = std::size_t(share * double(mesh.triangle.size())) * 3;
-  // Only the share ends the simplification, because an error of 1 is as large as the mesh.
+  // An error of 1 is the size of the whole mesh, so the simplification ends only when the requested share of
+  // triangles is reached.
   constexpr float any_error = 1;
   std::vector<std::uint32_t> kept(indices.size());
   kept.resize(meshopt_simplify(kept.data(), indices.data(), indices.size(), &mesh.position[0].x,

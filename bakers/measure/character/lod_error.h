@@ -11,9 +11,9 @@
 
 namespace nook::measure {
 
-// The mesh with about `share` of its triangles. meshoptimizer collapses edges without moving vertices. The
-// share is larger if further collapses would change the topology. welded_vertex gives the full mesh's vertex
-// for each vertex.
+// The mesh, reduced to about the fraction `share` of its triangles. meshoptimizer collapses edges without
+// moving vertices. It stops earlier, at a larger share, if further collapses would change the topology. For
+// each vertex, welded_vertex is the index of the same vertex in the full mesh.
 struct LodMesh {
   bake::SkinnedMesh mesh;
   std::vector<std::uint32_t> welded_vertex;
@@ -22,13 +22,14 @@ LodMesh simplified(const bake::SkinnedMesh& mesh, double share);
 
 struct LodRow {
   std::size_t triangles = 0, vertices = 0;
-  CharacterEvaluation nearest;    // each vertex takes the AO of the baked vertex at the same position
-  CharacterEvaluation resampled;  // nook_model_resample
-  CharacterEvaluation refitted;   // `nook bake lod`
+  CharacterEvaluation nearest;    // each vertex uses the AO of the baked vertex at the same position
+  CharacterEvaluation resampled;  // the result of nook_model_resample
+  CharacterEvaluation refitted;   // the result of `nook bake lod`
 };
 
-// Traces the truth on the mesh with less detail and that mesh's normals. Fits the field `refitted` to the
-// training poses. Throws Failure: BAD_FILE (a model without rest positions), CANCELLED.
+// Traces the reference AO on the mesh with less detail, with the normals of that mesh. The model for
+// `refitted` is fitted to the training poses. Throws Failure: BAD_FILE (a model without rest positions),
+// CANCELLED.
 LodRow measure_lod(const LodMesh& lod, const CharacterModel& model, std::span<const bake::Pose> training,
                    const bake::RefitSettings& refit, std::span<const bake::Pose> measured, std::uint32_t rays,
                    std::uint64_t seed, const bake::Progress& progress = {});

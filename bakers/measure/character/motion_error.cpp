@@ -40,7 +40,7 @@ Rows rows_of(const SkinnedMesh& mesh, const CharacterModel& model, std::span<con
   std::mutex reporting;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t(0), frames.size(), [&](std::size_t f) {
-    // Each frame is traced by its own call, so that all frames get the random numbers of pose 0.
+    // Each frame is traced by a separate call. All frames thus use the random numbers of pose 0.
     const AoTargets traced = trace_character_ao(mesh, frames.subspan(f, 1), rays, seed);
     const std::vector<float> ao = predict_ao(model, frames[f]);
     std::copy(ao.begin(), ao.end(), &rows.model[f * vertices]);

@@ -13,7 +13,7 @@ using namespace bake;
 constexpr int width_px = 560, height_px = 560;
 constexpr std::size_t side_count = 2;
 
-// Roles of one limb have similar hues.
+// The roles of bones in the same limb have similar hues.
 constexpr std::array<Colour, joint_role_count> colours{{
     {0.60f, 0.60f, 0.60f},  // other
     {0.30f, 0.30f, 0.85f},  // pelvis
@@ -41,7 +41,8 @@ constexpr std::array<Colour, joint_role_count> colours{{
     {0.20f, 0.20f, 0.20f},  // control
 }};
 
-// A value of the picture is (role * side_count + side) / pairs.
+// The picture is drawn with one value per face, (role * side_count + side) / pairs. The value selects the
+// colour.
 constexpr float pairs = float(joint_role_count * side_count);
 
 Colour colour_of_value(float value) {
@@ -52,7 +53,7 @@ Colour colour_of_value(float value) {
   return colour;
 }
 
-// Faces do not share corners, so that colours change sharply at edges.
+// A copy of the mesh in which faces do not share corners, so that colours change sharply at edges.
 struct ColouredFaces {
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<Vec3> position;

@@ -1,4 +1,4 @@
-// Draws the roles that were recognised in a rig: the skin is coloured by the roles of its bones.
+// Draws the roles that were recognised in a rig. The skin is coloured by the roles of the bones.
 #pragma once
 
 #include <filesystem>

@@ -21,11 +21,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr float changed_by = 0.01f;
 
-// The AO values that a rule combines at a pixel.
+// The AO values of one pixel. Each rule for combining the two passes uses some of them.
 struct Parts {
-  float screen = 1;                     // the screen pass with the characters in its depth
-  float room = 1;                       // the screen pass without the characters: their pixels hide nothing
-  float world = 1;                      // the characters' casters
+  float screen = 1;                     // the screen pass, with the characters in its depth buffer
+  float room = 1;                       // the screen pass, without the characters in its depth buffer
+  float world = 1;                      // the world pass, which evaluates the characters' casters
   float shipped = 1, shipped_half = 1;  // both passes together, with the world pass at full and at half
                                         // resolution
 };
@@ -79,7 +79,7 @@ std::vector<float> caster_ao(const RoomPixels& pixels, std::span<const Capsule> 
   return ao;
 }
 
-// Returns a view for a pass that does not see the figures.
+// Returns the view without the figures, for a pass that must not see them.
 bake::nnao::TracedView without_figures(const RoomView& view) {
   bake::nnao::TracedView masked = view.view;
   for (std::size_t i = 0; i < masked.depth.size(); ++i)
@@ -114,7 +114,7 @@ struct Passes {
   ShippedPass full, half;
 };
 
-// Draws ray tracing, Nook, and the screen pass alone.
+// Draws three panels: ray tracing, Nook, and the screen pass alone.
 void write_picture(const std::filesystem::path& file, const RoomView& view, Passes& passes) {
   const RoomPixels& p = view.pixels;
   std::vector<float> traced(view.view.depth.size(), 1.0f);

@@ -33,10 +33,10 @@ struct MeasuredRoom {
 
 using CompositeProgress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Returns two rows for each room and each way to combine both passes, and for all rooms together. One row is
-// for the pixels of the room whose traced AO changes by more than 0.01 when the characters are added. The
-// other row is for all other pixels of the room. Throws Failure (INVALID_ARGUMENT: a model without casters, a
-// room without a place to stand in; CANCELLED).
+// Returns two rows for each room and each way to combine both passes. Also returns two such rows for all
+// rooms together. The first row is for the pixels of the room whose traced AO changes by more than 0.01 when
+// the characters are added. The second row is for all other pixels of the room. Throws Failure
+// (INVALID_ARGUMENT: a model without casters, a room without a place to stand in; CANCELLED).
 nlohmann::ordered_json composite_rows(platform::Context& context, std::span<const MeasuredRoom> rooms,
                                       const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                       std::span<const std::byte> model_bytes,
@@ -53,11 +53,11 @@ struct LitRoomSettings {
 
 // Draws four panels from left to right:
 //   1. ray tracing;
-//   2. Nook's open share per channel, with the sun as a cone;
-//   3. AO times the probe, with the same cone;
+//   2. Nook's open share of the light in each channel, where the sun is a cone;
+//   3. AO times the light of the probe, with the same cone;
 //   4. one capsule for each bone, lit in the same way as panel 3, with the best scale of radii.
-// The room does not hide the map. Only the figures take light away. Throws Failure (INVALID_ARGUMENT: a model
-// without casters, a room without a place to stand in) and std::runtime_error.
+// The room does not block the light of the map. Only the figures block light. Throws Failure
+// (INVALID_ARGUMENT: a model without casters, a room without a place to stand in) and std::runtime_error.
 void write_lit_room(const std::filesystem::path& file, const MeasuredRoom& measured,
                     const bake::SkinnedMesh& mesh, const CharacterModel& model,
                     std::span<const bake::Pose> poses, const SplitLight& light,

@@ -72,7 +72,7 @@ Vec3 lit(const SplitLight& light, Vec3 normal, Vec3 soft_share, float sun_share)
   return by_channel(light.soft_irradiance(normal), soft_share) + light.sun_irradiance(normal) * sun_share;
 }
 
-// Returns the light at every n-th pixel.
+// Returns the light at every n-th pixel, darkened by the method.
 std::vector<Vec3> lit_by(Darkener& method, const Scene& scene, const SplitLight& light, std::size_t every) {
   const std::size_t count = (scene.points.size() + every - 1) / every;
   std::vector<float> ao(count, 1.0f), sun(count, 1.0f);

@@ -20,8 +20,8 @@ using namespace bake;
 constexpr int attempts = 4000;
 constexpr float turn = 2 * std::numbers::pi_v<float>;
 
-// Among the surfaces on a vertical line, returns the lowest one that faces up and has 2 m of free space above
-// it.
+// Returns the height of the floor on a vertical line. The floor is the lowest surface on this line that faces
+// up and has 2 m of free space above it.
 std::optional<float> floor_at(const RayScene& room, const Bounds& bounds, float x, float z) {
   const float top = bounds.high.y + 1;
   std::optional<float> found;

@@ -17,9 +17,9 @@ namespace nook::measure {
 // Makes a room with walls, steps, a table, chairs and a shelf. World space, metres, the floor at y = 0.
 bake::TriangleSoup own_room();
 
-// Reads the triangles of a glTF file with +y up. `metres_per_unit` is the length of the file's unit. Appends
-// the warnings of the import. Throws Failure: BAD_FILE, and INVALID_ARGUMENT if a name of the mesh selection
-// matches nothing.
+// Reads the triangles of a glTF file with +y up. `metres_per_unit` is the length of the file's unit in
+// metres. Appends the warnings of the import to the given list. Throws Failure: BAD_FILE, or INVALID_ARGUMENT
+// if a name of the mesh selection does not match any mesh.
 bake::TriangleSoup room_of(const std::filesystem::path& file, float metres_per_unit,
                            const bake::ImportOptions& reading, std::vector<std::string>& warnings);
 
@@ -30,8 +30,8 @@ struct Figure {
   Vec3 foot;               // on the floor, below the middle of the body
 };
 
-// Stands up to `count` figures on level ground, away from the room's surfaces and from each other. The poses
-// are evenly picked. The same seed gives the same places.
+// Places up to `count` figures on level ground, with some distance to the room's surfaces and to each other.
+// Their poses are picked at even intervals. The same seed gives the same places.
 std::vector<Figure> stand_in_room(const bake::TriangleSoup& room, const bake::SkinnedMesh& mesh,
                                   std::span<const bake::Pose> poses, std::size_t count, std::uint64_t seed);
 

@@ -35,7 +35,7 @@ void trace_buffers(const PopulatedRoom& room, const RayScene& all, RoomView& vie
   });
 }
 
-// Counts the open rays of each half.
+// The number of open rays in each half of the rays.
 struct Open {
   int room = 0, together = 0;
 };
@@ -44,7 +44,7 @@ void add_ray(Open& open, const PopulatedRoom& room, const RayScene& all, Vec3 or
              float radius) {
   bool met_figure = false;
   float beyond = 0;
-  // After a hit on a figure, only the room counts.
+  // After the ray has hit a figure, only hits on the room are counted.
   for (;;) {
     const RayHit hit = all.nearest(origin, direction, beyond);
     const bool figure = std::isfinite(hit.distance) && hit.triangle >= room.first_figure;

@@ -1,5 +1,5 @@
-// Runs the screen pass without the characters, and the world pass that composes with it. Both use the public
-// interface, like hosts do.
+// Runs the screen pass without the characters, and the world pass, which combines its own AO with the screen
+// pass's AO. Calls both passes through the public interface, as hosts do.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -23,7 +23,7 @@ class ShippedPass {
 
   // Replaces the characters of the scene.
   void pose(std::span<const Figure> figures);
-  // Returns the AO of each pixel. Pixels of figures have 1.
+  // Returns the AO of each pixel. Pixels that show a figure have AO 1.
   std::vector<float> ao(const RoomView& view);
 
  private:

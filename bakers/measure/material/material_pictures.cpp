@@ -20,12 +20,12 @@ using nook::material::VisibilityForm;
 constexpr int gap_px = 4;
 constexpr Colour ground{0.3f, 0.3f, 0.32f};
 
-// Returns a display value for the radiance under a light of irradiance pi.
+// Returns the display value for a radiance that was computed under a light of irradiance pi.
 float display(float radiance) {
   return std::pow(std::clamp(std::numbers::pi_v<float> * radiance, 0.0f, 1.0f), 1 / 2.2f);
 }
 
-// Draws a cell of the sheet: `tiles` copies along each axis, y up.
+// Draws a cell of the sheet, with `tiles` copies of the tile along each axis. y points up.
 Picture cell(std::uint32_t width, std::uint32_t height, std::uint32_t tiles,
              const std::function<Colour(std::size_t x, std::size_t y)>& colour) {
   Picture p{int(width * tiles) + gap_px, int(height * tiles) + gap_px, {}};
@@ -41,7 +41,7 @@ Picture cell(std::uint32_t width, std::uint32_t height, std::uint32_t tiles,
   return p;
 }
 
-// Returns the direction whose tilt is nearest to the given one.
+// Returns the index of the direction in `set` whose tilt is nearest to tilt_deg.
 std::size_t of_tilt(const std::vector<Vec3>& set, float tilt_deg) {
   const float z = std::cos(tilt_deg * std::numbers::pi_v<float> / 180);
   return std::size_t(std::min_element(set.begin(), set.end(),
@@ -73,7 +73,7 @@ bool visible(const RawMaterial& raw, std::size_t view, std::size_t texel) {
   return raw.mask.empty() || raw.mask[view * raw.texels() + texel] > 0.5f;
 }
 
-// Draws one view of a raw material, and of a compressed one beside it.
+// Draws one view of a raw material, and beside it the same view of a compressed material.
 class ViewDrawing {
  public:
   ViewDrawing(const RawMaterial& raw, std::size_t light, std::size_t view)

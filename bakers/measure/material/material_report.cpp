@@ -14,7 +14,7 @@ nlohmann::ordered_json report_row(const std::string& material, const MethodRow& 
     const GrazingError& isotropic = row.grazing.front();
     auto& entry = json["grazing"].emplace_back(
         nlohmann::ordered_json{{"fetches", error.fetches}, {"mse", error.mse}, {"mse_raw", error.mse_raw}});
-    // A material of one colour has no error to compare with.
+    // For a material with a single colour, the error of isotropic filtering is 0, so there is no ratio.
     if (isotropic.mse > 0) entry["of_isotropic"] = error.mse / isotropic.mse;
     if (isotropic.mse_raw > 0) entry["of_isotropic_raw"] = error.mse_raw / isotropic.mse_raw;
   }
@@ -76,7 +76,7 @@ void add_unseen(const RawMaterial* unseen, const Material& material, MethodRow& 
 }
 
 void add_jumps(const Material& material, MethodRow& row) {
-  constexpr std::uint64_t seed = 1;  // the same arcs for all methods
+  constexpr std::uint64_t seed = 1;  // fixed, so that all methods are measured on the same arcs
   row.jumps = measure_view_jumps(material, seed);
   if (material.btf.map.side == 0) return;
   Material without = material;
@@ -90,7 +90,7 @@ MethodRow material_file_row(const RawMaterial& raw, const MaterialFile& file, co
   own.file_bytes = file.bytes.size();
   const nook::material::MaterialTables tables = nook::material::make_tables(
       file.material, {}, default_memory(), nook::material::default_map_side, measures.form);
-  // For a network, the measured error is already the error as drawn.
+  // For a neural material, the measured error is already the error of the drawn material.
   own.se_db_drawn = tables.neural.is_used() ? own.se_db : measure_tables(raw, tables).se_db();
   own.gpu_bytes_texel = table_bytes_texel(tables);
   if (measures.mipmaps) own.levels = measure_levels(raw, tables);

@@ -26,7 +26,8 @@ Vec3 tilted(float degrees, float azimuth_degrees) {
   return {std::sin(tilt) * std::cos(azimuth), std::sin(tilt) * std::sin(azimuth), std::cos(tilt)};
 }
 
-// Returns the radiance under a light of irradiance pi at a texel's middle, over the ground.
+// Returns the radiance at the centre of a texel under a light of irradiance pi. Where the material is open,
+// the ground is visible.
 Colour radiance_of(const MaterialTables& tables, Cell cell) {
   const nook::material::Sample sample{(float(cell.x) + 0.5f) / float(tables.btf.width),
                                       (float(cell.y) + 0.5f) / float(tables.btf.height), 0, tilted(20, 30),
@@ -40,7 +41,7 @@ Colour radiance_of(const MaterialTables& tables, Cell cell) {
   return out;
 }
 
-// Writes a panel of side x side texels, v up, starting at a column.
+// Writes a panel of side x side texels, starting at the given column of the picture. v points up.
 template <class ColourAt>
 void draw_panel(Picture& picture, std::uint32_t side, std::uint32_t left, const ColourAt& colour) {
   tbb::parallel_for(std::uint32_t{0}, side, [&](std::uint32_t y) {

@@ -1,4 +1,4 @@
-// Draws a plane with a material, once tiled and once by a coordinate texture.
+// Draws a plane with a material, once by tiling the material and once with a coordinate texture.
 #pragma once
 
 #include "bakers/images/picture.h"
@@ -12,9 +12,10 @@ struct TilePart {
   std::uint32_t x = 0, y = 0, width = 0, height = 0;
 };
 
-// Draws three panels side by side, one pixel for each texel of the plane. They show the tiled part, the plane
-// drawn by its coordinates, and the coordinates as red and green. In the third panel, each piece of the
-// material appears as one ramp. The view is tilted by 20 degrees, the light by 45. The ground is grey.
+// Draws three panels side by side, with one pixel for each texel of the plane. The first shows the tiled
+// part. The second shows the plane drawn with its coordinate texture. The third shows the coordinates as red
+// and green, so that each contiguous piece of the material appears as one colour ramp. The view is tilted by
+// 20 degrees, and the light by 45 degrees. The ground is grey.
 bake::Picture plane_sheet(const nook::material::MaterialTables& tables,
                           const nook::synthesis::Coordinates& coordinates, const TilePart& part);
 

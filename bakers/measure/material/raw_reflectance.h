@@ -1,4 +1,4 @@
-// Serves a raw material as a surface for path tracing, without compression. It interpolates between lights,
+// Makes an uncompressed raw material usable as a surface in path tracing. It interpolates between lights,
 // views and texels.
 #pragma once
 
@@ -13,19 +13,19 @@
 
 namespace nook::measure {
 
-// Interpolates like decoding: between views by the thin-plate spline, and linearly between lights, texels and
-// levels. Each level halves the one before.
+// Interpolates in the same way as the decoder: between views with a thin-plate spline, and linearly between
+// lights, texels and mipmap levels. Each level has half the width and height of the level before.
 class RawReflectance {
  public:
-  // Takes ownership of the BTF. During the call, it needs another 4/3 of the BTF's memory.
+  // Takes ownership of the BTF. During the call, it also needs 4/3 times the memory of the BTF.
   explicit RawReflectance(bake::material::RawMaterial raw);
 
   std::size_t number_count() const { return numbers_; }
-  // Writes the radiance at the sample's point, for the sample's view, under each sampled light (lights x
-  // RGB). Ignores the sample's light.
+  // Writes the radiance at the sample's point and for the sample's view, under each light of the raw material
+  // (lights x RGB). The light of the sample is ignored.
   void decode(const nook::material::Sample& sample, std::span<float> numbers) const;
-  // Returns the radiance for an irradiance of 1 on a plane that faces the light; black if the light is below
-  // the horizon.
+  // Returns the radiance under a light that causes an irradiance of 1 on a plane that faces it. Returns black
+  // if the light is below the horizon.
   Vec3 radiance(std::span<const float> numbers, Vec3 light) const;
 
  private:
@@ -39,7 +39,7 @@ class RawReflectance {
   std::vector<Vec3> lights_;
   std::size_t views_ = 0, numbers_ = 0;
   std::vector<Level> levels_;
-  bake::tensor::Matrix view_weights_;  // per cell of a parabolic map
+  bake::tensor::Matrix view_weights_;  // one row per cell of a parabolic map
   nook::material::DirectionMesh light_mesh_;
 };
 

@@ -14,7 +14,7 @@ using Eigen::Index;
 using nook::material::MaterialTables;
 using tensor::Matrix;
 
-// Returns the light modes of all texels for a view, light modes x texels (x slow, y fast).
+// Returns the light modes of all texels for a view, as a matrix of light modes x texels (y varies fastest).
 Matrix decoded_modes(const RawMaterial& raw, const MaterialTables& tables, Vec3 view) {
   Matrix modes(Index(raw.texels()), Index(tables.btf.light_modes));
   for (std::uint32_t x = 0; x < raw.width; ++x)
@@ -28,7 +28,7 @@ Matrix decoded_modes(const RawMaterial& raw, const MaterialTables& tables, Vec3 
   return modes.transpose();
 }
 
-// Returns the radiances at a sample's point for its view under all lights, three numbers per light.
+// Returns the radiances at a sample's point and for its view, under all lights, three values per light.
 Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Matrix& lights,
                  const nook::material::Sample& sample) {
   return decoded_radiances(
@@ -39,7 +39,7 @@ Matrix radiances(const RawMaterial& raw, const MaterialTables& tables, const Mat
       });
 }
 
-// Returns the mean of the raw radiances over a square of texels, for one view and under each light.
+// Returns the raw radiances for one view and under each light, averaged over a square of texels.
 Matrix mean_radiances(const RawMaterial& raw, std::size_t view, std::uint32_t x, std::uint32_t y,
                       std::uint32_t side) {
   Matrix mean = Matrix::Zero(Index(raw.light_rows()), 1);

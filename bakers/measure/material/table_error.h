@@ -1,6 +1,6 @@
-// Measures a material as it is drawn: decoded from the tables in textures, at the texel centres, for the
-// views and lights of the raw material. The error includes the rounding of the tables, the view map and the
-// light map.
+// Measures a material in the form in which it is drawn, which is decoded from tables in textures. It is
+// measured at the texel centres, for the views and lights of the raw material. The error includes the
+// rounding of the tables, the view map and the light map.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,16 @@
 
 namespace nook::bake::material {
 
-// Returns the light basis for all lights and channels of the raw material, 3 lights x light modes.
+// Returns the light basis for all lights and channels of the raw material. The matrix has 3 x lights rows and
+// one column per light mode.
 tensor::Matrix light_rows(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 
 // Throws Failure(INVALID_ARGUMENT) if the sizes differ from the raw material's.
 BtfError measure_tables(const RawMaterial& raw, const nook::material::MaterialTables& tables);
 
-// The error when seen from far away, where a pixel covers a square of texels. The truth is the mean of the
-// raw radiances over the square. It is compared with the material at the centre of the square, once at the
-// square's mipmap level and once at the finest level.
+// The error when the material is seen from far away, so that a pixel covers a square of texels. The reference
+// is the mean of the raw radiances over the square. It is compared with the material at the centre of the
+// square, once at the mipmap level that fits the square and once at the finest level.
 struct LevelError {
   std::uint32_t side = 0;  // texels
   double se_db = 0, se_db_finest = 0;
@@ -32,9 +33,9 @@ std::vector<LevelError> measure_levels(const RawMaterial& raw, const nook::mater
 // Returns the bytes of all textures divided by the number of texels of the BTF.
 double table_bytes_texel(const nook::material::MaterialTables& tables);
 
-// Returns the radiances under all lights, three numbers each. For a tensor, decode_modes(span) writes the
-// light modes, and `lights` are light_rows of table_error.h. For a network, decode_sums(span) writes the sums
-// that all lights share, and `lights` is ignored.
+// Returns the radiances under all lights, three values per light. For a tensor, decode_modes(span) must write
+// the light modes, and `lights` must be the result of light_rows. For a network, decode_sums(span) must write
+// the sums that all lights share, and `lights` is ignored.
 template <class DecodeModes, class DecodeSums>
 tensor::Matrix decoded_radiances(const RawMaterial& raw, const nook::material::MaterialTables& tables,
                                  const tensor::Matrix& lights, const DecodeModes& decode_modes,

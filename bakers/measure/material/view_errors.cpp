@@ -25,7 +25,7 @@ namespace {
 using nook::material::Material;
 using nook::material::VisibilityForm;
 
-// Compares directions exactly as floats, because all files take their directions from the same spiral.
+// Compares the floats exactly. This works because all files compute their directions from the same spiral.
 bool same_directions(const std::vector<Vec3>& a, const Vector<Vec3>& b) {
   return std::ranges::equal(a, b, [](Vec3 p, Vec3 q) { return length(p - q) < 1e-5f; });
 }
@@ -68,7 +68,7 @@ std::size_t for_each_sample(const nook::material::PixelSides& sides, float lengt
   return std::size_t(along) * texel_samples;
 }
 
-// Means over a pixel: of the file's finest level, and of the raw images.
+// The radiances averaged over a pixel, once from the finest level of the file and once from the raw images.
 struct Means {
   Matrix file, raw;
 };
@@ -88,7 +88,8 @@ Means means_of(const RawMaterial& raw, const MaterialTables& tables, const Matri
   return means;
 }
 
-// Returns the sides of a pixel of a view: a texel across the tilt, and longer along it.
+// Returns the sides of a pixel in a view. The pixel is one texel wide across the tilt direction, and longer
+// along it.
 nook::material::PixelSides grazing_sides(const RawMaterial& raw, Vec3 view, TexturePlace middle) {
   const float tilted = std::sqrt(view.x * view.x + view.y * view.y), x = view.x / tilted, y = view.y / tilted,
               w = float(raw.width), h = float(raw.height);
@@ -120,7 +121,7 @@ constexpr std::size_t arcs = 64, steps = 60;
 constexpr std::uint32_t grid = 16;  // texels per side
 constexpr float radians = std::numbers::pi_v<float> / 180, most_tilt = 70 * radians;
 
-// Returns the views of an arc with both ends within the largest tilt.
+// Returns the views along a random arc. The tilt at both ends is at most most_tilt.
 std::vector<Vec3> arc_of(std::uint64_t seed) {
   RandomFrom<MixedCounter> random(seed);
   const float lowest = std::cos(most_tilt), arc = jump_step_deg * radians * float(steps);
@@ -140,8 +141,8 @@ std::vector<Vec3> arc_of(std::uint64_t seed) {
   }
 }
 
-// Writes the light modes of a sample. A neural material has no modes, so the radiances of all lights are
-// written instead.
+// Writes the light modes of a sample. A neural material does not have modes, so its radiances under all
+// lights are written instead.
 void set_modes(const Material& material, const MaterialTables& tables, const nook::material::Sample& sample,
                std::span<float> modes) {
   if (!tables.neural.is_used()) return decode_modes(tables, sample, modes);
@@ -165,7 +166,7 @@ Rows modes_of(const Material& material, const MaterialTables& tables, Vec3 view)
   Rows out(Eigen::Index(width) * height, mode_count(material, tables));
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x) {
-      // Texel centres, where filtering does not blur.
+      // Uses texel centres, because filtering does not blur there.
       const auto middle = [](std::uint32_t i, std::uint32_t count, std::uint32_t size) {
         return (float(i * size / count) + 0.5f) / float(size);
       };
@@ -177,8 +178,8 @@ Rows modes_of(const Material& material, const MaterialTables& tables, Vec3 view)
   return out;
 }
 
-// Returns G = U^T U of the light basis of the tables. For modes m, m^T G m is the sum of squares of all
-// radiances.
+// Returns the Gram matrix G = U^T U, where U is the light basis of the tables. For light modes m, the sum of
+// the squares of all radiances is m^T G m.
 Rows gram_of(const Material& material, const MaterialTables& tables) {
   const Eigen::Index modes = mode_count(material, tables);
   if (tables.neural.is_used()) return Rows::Identity(modes, modes);

@@ -36,14 +36,14 @@ bool is_wanted(const MethodFilter& methods, const std::string& name, int taps) {
   return named("all") || named(name) || named(name + ":" + std::to_string(taps));
 }
 
-// Returns true if the recorded AO is the direct output of the pass, without intensity, power and layer.
+// Returns true if the recorded AO is the unmodified output of the pass, without intensity, power and layer.
 bool is_plain(const Recording& recording) {
   const auto& frame = recording.frame;
   return frame.view == NOOK_NNAO_VIEW_BLURRED ||
          (frame.view == NOOK_NNAO_VIEW_AO && frame.intensity == 1 && frame.power == 1 && frame.layer == 0);
 }
 
-// A method to draw.
+// A method that will be drawn.
 struct Job {
   FrameRow row;
   std::function<std::vector<float>()> draw;
@@ -65,7 +65,7 @@ void set_errors(FrameRow& row, const std::vector<float>& plain, const std::vecto
 
 AoDifference difference_of(std::span<const float> a, std::span<const float> b) {
   AoDifference difference;
-  // Different drivers convert the 8 bits of AO to floats that differ in the last bit.
+  // Compares 8-bit values, because drivers convert them to floats that differ in the last bit.
   const auto steps = [](float ao) { return std::lround(255 * double(ao)); };
   for (std::size_t i = 0; i < a.size(); ++i) {
     const long d = std::abs(steps(a[i]) - steps(b[i]));
@@ -90,7 +90,7 @@ std::vector<Job> library_jobs(FrameReplay& replay, const Recording& recording, c
   const nook::nnao::RecordedNetwork network = nook::nnao::recorded_network(recording);
   const auto shown = nook_nnao_view(recording.frame.view);
   std::vector<Job> jobs;
-  // `file` is a network; empty for the embedded one.
+  // `file` holds the bytes of a network file. If it is empty, the embedded network is used.
   const auto add = [&](const std::string& name, const RecordedPass& settings, std::span<const std::byte> file,
                        const char* named) {
     if (!methods.empty() && !is_wanted(methods, name, settings.taps)) return;
@@ -127,7 +127,7 @@ std::vector<Oracle> wanted_oracles(const MethodFilter& methods) {
   return wanted;
 }
 
-// `truth` is from the first oracle; empty if there is no oracle.
+// `truth` is the AO of the first oracle. It is empty if there is no oracle.
 FrameRow recorded_row(const FrameReplay& replay, const Recording& recording,
                       const std::vector<float>& truth) {
   FrameRow row;

@@ -1,5 +1,5 @@
-// Draws one recorded frame with every method. Compares the AO with the recorded AO and with the oracle, and
-// makes rows of a report.
+// Draws one recorded frame with every method. Compares each AO image with the recorded AO and with the
+// oracle, and returns the results as rows of a report.
 #pragma once
 
 #include <functional>
@@ -25,18 +25,21 @@ AoDifference difference_of(std::span<const float> a, std::span<const float> b);
 
 struct FrameRow {
   std::string method;
-  nook::nnao::RecordedPass pass;  // settings of the library's pass; other methods only set `taps`
+  nook::nnao::RecordedPass pass;  // settings of the library's pass; rows of other methods only set `taps`
   bool is_library = false;        // drawn by the library's pass
-  std::string network;            // for the library's pass: recorded, embedded or file
+  std::string network;            // only for the library's pass: "recorded", "embedded" or "file"
   std::vector<float> ao;          // with the frame's intensity, power, layer and view applied
-  // Empty for the recorded row itself. Also empty for methods outside the library if the recorded AO has a
-  // layer, intensity or power, because those methods do not support them.
+  // The difference from the recorded AO. It is empty in the row of the recorded AO itself. It is also empty
+  // for methods outside the library if the recorded AO has a layer, an intensity or a power, because those
+  // methods do not support these settings.
   std::optional<AoDifference> from_recorded;
-  // Errors over pixels with a surface, without intensity, power and layer.
+  // Errors relative to the oracle over all pixels with a surface. The compared images are without intensity,
+  // power and layer.
   std::optional<double> oracle_mse, oracle_bias;
 };
 
-// Names of methods as in tables, or NAME:TAPS. If empty, uses the library's rows and the oracle.
+// The methods to draw. Each entry is a name as in the tables, or NAME:TAPS. If the filter is empty, the
+// library's rows and the oracle are drawn.
 using MethodFilter = std::vector<std::string>;
 
 // Returns the names of the library's rows that a filter may contain for any frame.
@@ -49,10 +52,11 @@ struct FrameMethod {
   std::function<std::vector<float>(const FrameReplay&)> draw;  // returns the AO of the frame's pixels
 };
 
-// `other_network` is the file of another network to measure; empty for none. `progress` counts methods; if it
-// returns false, the function throws Failure(CANCELLED). The methods in `further` are drawn if the filter
-// names them. The order of the rows is recorded, replayed, nnao_file, the presets, the methods in `further`,
-// the oracles. A frame without a perspective projection has no rows for `further` and the oracles.
+// `other_network` holds the bytes of another network file to measure, or is empty. `progress` counts methods.
+// If it returns false, the function throws Failure(CANCELLED). The methods in `further` are drawn if the
+// filter names them. The rows are in this order: recorded, replayed, nnao_file, the presets, the methods in
+// `further`, the oracles. If the frame does not have a perspective projection, there are no rows for the
+// methods in `further` and for the oracles.
 std::vector<FrameRow> compare_frame(FrameReplay& replay, const nook::nnao::Recording& recording,
                                     const MethodFilter& methods, std::span<const std::byte> other_network,
                                     const std::function<bool(std::size_t, std::size_t)>& progress,
@@ -64,9 +68,10 @@ std::vector<FrameRow> compare_frame(FrameReplay& replay, const nook::nnao::Recor
 nlohmann::ordered_json frame_rows(const std::string& frame, const nook::nnao::Recording& recording,
                                   std::span<const FrameRow> rows);
 
-// Averages over frames. Returns one row with the frame name "mean" for each method and tap count. Each value
-// is the mean over the frames that have the value, but largest_difference is the maximum. `rows` are the rows
-// of all frames, made by frame_rows. Returns no rows for fewer than two frames.
+// Averages over frames. Returns one row for each method and tap count, with the frame name "mean". Each value
+// is the mean over those frames whose value is not null. The exception is largest_difference, which is the
+// maximum. `rows` must contain the rows of all frames, as frame_rows returns them. If there are fewer than
+// two frames, returns no rows.
 nlohmann::ordered_json frame_mean_rows(const nlohmann::ordered_json& rows);
 
 }  // namespace nook::measure

@@ -12,7 +12,8 @@ using Colour = std::array<float, 3>;
 constexpr Colour no_surface{0.05f, 0.1f, 0.35f};
 constexpr int columns = 3, gap_px = 4;
 
-// colour(i) is the colour of pixel i. Rows count from the bottom.
+// `colour(i)` must return the colour of pixel i. Pixels are numbered row by row, starting with the lowest
+// row.
 template <class ColourOf>
 platform::Image picture_of(int width, int height, ColourOf&& colour) {
   platform::Image image{width, height, 3, {}};
@@ -69,7 +70,7 @@ platform::Image ao_picture(std::span<const float> ao, int width, int height) {
 platform::Image difference_picture(std::span<const float> a, std::span<const float> b, int width,
                                    int height) {
   return picture_of(width, height, [&](std::size_t i) -> Colour {
-    // Rounded to 8 bits, like difference_of.
+    // Both values are first rounded to 8 bits, as in difference_of.
     const float more = 16 * (std::round(255 * b[i]) - std::round(255 * a[i])) / 255,
                 grey = 0.5f - 0.5f * std::min(std::abs(more), 1.0f);
     return {grey + std::max(-more, 0.0f), grey, grey + std::max(more, 0.0f)};

@@ -83,7 +83,7 @@ std::vector<float> FrameReplay::draw(const nook::nnao::RecordedPass& settings,
   desc.blur_sharpness = settings.blur_sharpness;
   nook_nnao_debug_desc debug;
   succeed(nook_nnao_debug_desc_init(&debug));
-  debug.path = NOOK_NNAO_PATH_FRAGMENT;  // both paths give the same bits
+  debug.path = NOOK_NNAO_PATH_FRAGMENT;  // the fragment path and the compute path give the same bits
   desc.next = &debug;
   desc.network = network.empty() ? nullptr : network.data();
   desc.network_size = network.size();

@@ -1,5 +1,5 @@
-// Draws a recorded frame again, with the library's pass (with the recorded or other settings) and with the
-// oracle. All use the same depth.
+// Draws a recorded frame again from its recorded depth, with the library's pass and with the oracle. The
+// library's pass can use the recorded settings or other settings.
 #pragma once
 
 #include <memory>
@@ -30,8 +30,8 @@ class FrameReplay {
                           nook_nnao_view shown) const;
   std::vector<float> draw(Oracle oracle);
 
-  // For other methods that draw a frame with an oracle: the frame's depth and normals, and the recorded
-  // request. `read` returns the AO of a texture with the frame's size.
+  // The functions below are for other methods that draw frames with an oracle. They return the frame's depth
+  // and normals, and the recorded request. `read` reads the AO from a texture of the frame's size.
   const GpuView& gpu_view() const { return gpu_view_; }
   AoRequest request() const;
   std::vector<float> read(GLuint texture) const { return read_red(gl_, texture, width(), height()); }

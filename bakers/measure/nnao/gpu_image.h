@@ -1,4 +1,5 @@
-// OpenGL objects for methods that draw: images to draw into and read back, and programs over the whole image.
+// OpenGL objects for methods that draw: images that can be drawn into and read back, and programs that run
+// over a whole image.
 #pragma once
 
 #include <glad/gl.h>
@@ -34,7 +35,7 @@ std::vector<float> read_red(const GladGLContext& gl, GLuint texture, int width, 
 // Returns all four channels of level 0.
 std::vector<float> read_rgba(const GladGLContext& gl, GLuint texture, int width, int height);
 
-// A shader of a folder, with its includes expanded at build time.
+// A shader file of a folder. Its includes are expanded at build time.
 struct EmbeddedShader {
   const char* path;  // relative to the folder
   const char* text;
@@ -50,8 +51,8 @@ inline ShaderTable embedded_shaders() {
 
 class GpuProgram {
  public:
-  // `path` names a fragment shader of the table. `defines` are lines that are inserted before the shader's
-  // text. Throws std::runtime_error with the compiler's message.
+  // `path` is the path of a fragment shader in the table `shaders`. `defines` contains lines that are
+  // inserted before the shader's text. Throws std::runtime_error with the compiler's message.
   GpuProgram(const GladGLContext& gl, ShaderTable shaders, const std::string& path,
              const std::string& defines = "");
   ~GpuProgram();

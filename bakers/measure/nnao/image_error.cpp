@@ -10,7 +10,8 @@ namespace {
 constexpr int reach = 5;
 constexpr double sigma = 1.5;
 
-// Returns for each pixel the mean around it with Gaussian weights. Windows are cut off at the borders.
+// Returns for each pixel the Gaussian-weighted mean over the window around it. Windows are cut off at the
+// borders.
 std::vector<double> window_means(const std::vector<double>& image, int width, int height) {
   double weight[reach + 1];
   for (int i = 0; i <= reach; ++i) weight[i] = std::exp(-0.5 * i * i / (sigma * sigma));
@@ -88,8 +89,8 @@ double ImageError::ssim() const {
 
 double ImageError::correlation() const {
   const double va = count_ * aa_ - a_ * a_, vb = count_ * bb_ - b_ * b_;
-  // The bound is far below the variance of an image in which one pixel in a million differs by two grey
-  // levels.
+  // Treats such an image as constant. The threshold is far below the variance of an image in which only one
+  // pixel in a million differs, by two grey levels.
   if (!(va > 1e-9 * count_) || !(vb > 1e-9 * count_)) return 0;
   return (count_ * ab_ - a_ * b_) / std::sqrt(va * vb);
 }

@@ -25,15 +25,15 @@ struct Mean {
 // Sums over pixels with a surface, over any number of images.
 class ImageError {
  public:
-  // Adds an image, row by row, with one value for each pixel. A pixel counts if its depth is finite.
+  // Adds an image with one value for each pixel, row by row. Only pixels with finite depth count.
   void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth,
            std::uint32_t width);
   void add(const ImageError& other);
 
   double mse() const;
-  // Returns the structural similarity (Wang et al. 2004) for values in [0, 1]. Windows are Gaussian with 11 x
-  // 11 pixels and a standard deviation of 1.5. The result is the mean over the windows around pixels that
-  // count.
+  // Returns the structural similarity (Wang et al. 2004) for values in [0, 1]. Windows have 11 x 11 pixels
+  // and Gaussian weights with a standard deviation of 1.5 pixels. The result is the mean over the windows
+  // whose central pixel has finite depth.
   double ssim() const;
   // Returns Pearson's correlation, or 0 if either image is constant.
   double correlation() const;

@@ -7,8 +7,8 @@
 namespace nook::measure {
 namespace {
 
-// Sets the glFrustum matrix that has the rays of the pixels. The pass reads linear depth, so the third row
-// only has to make the matrix invertible.
+// Sets the projection matrix, as made by glFrustum, that gives the pixels the rays of the view. The pass
+// reads linear depth, so the third row only has to make the matrix invertible.
 void set_projection(const GpuView& view, float (&projection)[16]) {
   std::fill_n(projection, 16, 0.0f);
   projection[0] = 2 / (view.rays.x_scale * float(view.width));

@@ -1,12 +1,14 @@
-// The oracle integrates AO from about a thousand taps on the depth of the screen. It has no tuned parameters.
+// The oracle integrates AO from about a thousand taps per pixel on the depth image. It has no tuned
+// parameters.
 #pragma once
 
 #include "bakers/measure/nnao/gpu_image.h"
 
 namespace nook::measure {
 
-// `solid`: all space behind a surface within the radius is solid, as horizon methods assume. `bitmask`: a
-// surface is half a radius thick, and light passes through the space behind it.
+// `solid` assumes that all space behind a visible surface within the radius is solid, as horizon methods do.
+// `bitmask` assumes that each visible surface is half a radius thick, and that light passes through the space
+// behind it.
 enum class Oracle { solid, bitmask };
 inline constexpr Oracle all_oracles[] = {Oracle::solid, Oracle::bitmask};
 inline constexpr int oracle_taps = 1024;

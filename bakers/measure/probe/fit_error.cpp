@@ -35,7 +35,7 @@ ExactFit::ExactFit(const Environment& map, const Basis& basis)
     for (Eigen::Index i = 0; i < count; ++i) m[i] = moment[std::size_t(i)][c];
     const Eigen::VectorXd b = solver.solve(m);
     for (Eigen::Index i = 0; i < count; ++i) best_[std::size_t(i)][c] = b[i];
-    // At the minimum, the integrals of R_LS^2 and of R_LS f are equal.
+    // R_LS is the minimum, so the integral of R_LS^2 equals the integral of R_LS f.
     size_ += b.dot(m);
     least_ += map_.square[c] - b.dot(m);
   }

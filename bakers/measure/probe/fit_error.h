@@ -1,5 +1,5 @@
-// Computes the error of a probe against its map without sampling, from integrals over the map and the Gram
-// matrix of the basis.
+// Computes the error of a probe against its map. It uses integrals over the map and the Gram matrix of the
+// basis instead of random samples.
 #pragma once
 
 #include <span>
@@ -13,17 +13,17 @@ namespace nook::bake::probe {
 
 using nook::probe::IrradianceForm;
 
-// The exact least-squares fit R_LS of a basis to a map f, and the errors of other coefficients R relative to
-// this fit.
+// R_LS is the exact least-squares fit of a basis to a map f. This class computes R_LS, and compares a probe R
+// with any other coefficients to it.
 class ExactFit {
  public:
   ExactFit(const Environment& map, const Basis& basis);
 
   const Basis& basis() const { return basis_; }
   std::vector<Vec3> coefficients() const;
-  // Returns the integral of (R - f)^2 over the region for any coefficients, summed over RGB.
+  // Returns the integral of (R - f)^2 over the region, summed over RGB.
   double square_error(std::span<const Vec3> coefficients) const;
-  // Returns by how much square_error exceeds its minimum, divided by the minimum.
+  // Returns (square_error - minimum) / minimum, where the minimum is the square_error of R_LS.
   double excess(std::span<const Vec3> coefficients) const;
   // Returns the squared norm of R - R_LS, divided by the squared norm of R_LS.
   double distance(std::span<const Vec3> coefficients) const;
@@ -43,17 +43,18 @@ class ExactFit {
   double size_ = 0;   // |R_LS|^2
 };
 
-// Compares the irradiance from coefficients with the irradiance from the map, for evenly spread normals of
-// the region.
+// Compares the irradiance that a probe gives with the irradiance of the map, for normals that are spread
+// evenly over the region.
 class IrradianceTruth {
  public:
   IrradianceTruth(const Environment& map, const Region& region, std::uint32_t normals = 1024);
 
   struct Error {
-    double rms = 0;      // over normals and channels
-    double minimum = 0;  // lowest irradiance of any normal and channel, divided by the map's mean irradiance
+    double rms = 0;  // over normals and channels
+    double minimum =
+        0;  // lowest irradiance over all normals and channels, divided by the map's mean irradiance
   };
-  // Returns the luminance of the map's irradiance, as a mean over the normals.
+  // Returns the luminance of the map's irradiance, averaged over the normals.
   double mean() const { return mean_; }
   Error error(const Basis& basis, std::span<const Vec3> coefficients,
               IrradianceForm form = IrradianceForm::bands) const;

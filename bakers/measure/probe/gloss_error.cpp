@@ -17,8 +17,8 @@ namespace nook::measure {
 namespace {
 
 constexpr std::size_t roughnesses = std::size(gloss_roughness);
-// Steps of visible normals along each axis. With twice as many steps, the sums of reflections change by less
-// than 1 %.
+// Number of visible normals along each axis of their grid. Doubling it changes the sums of reflections by
+// less than 1 %.
 constexpr int steps = 32;
 
 probe::Surface metal(Vec3 direction, float roughness) {

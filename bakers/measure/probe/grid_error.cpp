@@ -23,7 +23,7 @@ struct Box {
   }
 };
 
-// Each cell extends half a spacing around its probe.
+// Returns the box of all cells. The cell of a probe extends half a grid spacing to each side.
 Box box_of(const Grid& grid) {
   const Vec3 low = grid.origin_ws - 0.5f * grid.spacing_ws;
   const Vec3 size{grid.spacing_ws.x * float(grid.counts[0]), grid.spacing_ws.y * float(grid.counts[1]),
@@ -49,7 +49,7 @@ Vec3 uniform_direction(Random& random) {
   return {radius * std::cos(angle), y, radius * std::sin(angle)};
 }
 
-// The maximum number of tries to draw a valid place.
+// The maximum number of attempts to draw a valid random place.
 constexpr std::size_t most_draws = 1000;
 
 [[noreturn]] void no_place(const char* where) {

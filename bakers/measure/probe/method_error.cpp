@@ -28,7 +28,7 @@ struct SeedSamples {
   Samples uniform, luminance;
 };
 
-// Fits the first `count` samples.
+// Fits a probe to the first `count` samples.
 std::vector<Vec3> fit_samples(const ProbeMethod& method, const Samples& samples, std::size_t count) {
   FitSettings settings = method.fit;
   if (settings.growing_samples > 0) settings.growing_samples = float(count);

@@ -14,8 +14,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 using namespace bake::probe;
 
-// A ratio to zero, such as an error relative to a black map, is not finite. It is null in reports and "-" in
-// tables.
+// Returns null if the value is not finite, for example an error relative to a black map. Tables show null as
+// "-".
 Json number_or_null(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
@@ -79,8 +79,8 @@ std::vector<SphericalGaussian> lobes_of(const Basis& basis, std::span<const Vec3
   return lobes;
 }
 
-// Adds the errors of reflections in a metal ball, for the amplitudes that glossy reflection reads. Only lobes
-// over the sphere have them.
+// Adds the errors of reflections in a metal ball, for the amplitudes that glossy reflection reads. Only files
+// with lobes over the whole sphere have such amplitudes.
 void add_gloss(const bake::Environment& map, const nook::probe::Probes& probes, Json& row) {
   const Basis& basis = probes.basis;
   if (basis.kind != nook::probe::BasisKind::gaussians || basis.domain != Domain::sphere) return;
@@ -97,7 +97,7 @@ double geometric_mean(const std::vector<double>& values) {
   return std::exp(sum / double(values.size()));
 }
 
-// Returns the direct light that the grid's recipe names; "all" for grids without one.
+// Returns the name of the direct light in the grid's recipe, or "all" if the recipe has none.
 std::string direct_of_recipe(const nook::probe::Probes& probes) {
   const Json recipe = Json::parse(probes.recipe, nullptr, false);
   const Json direct = recipe.is_object() ? recipe.value("direct", Json()) : Json();

@@ -15,12 +15,12 @@
 
 namespace nook::measure {
 
-// The errors of each method over several maps.
+// Collects the errors of each method over several maps.
 class OverMaps {
  public:
   void add(const std::string& domain, const bake::probe::MethodError& error);
-  // Returns a row for each method with two maps or more: the geometric mean and the maximum of
-  // irradiance_relative, and the lowest irradiance.
+  // Returns a row for each method that was measured on two or more maps. The row has the geometric mean and
+  // the maximum of irradiance_relative, and the lowest irradiance.
   nlohmann::ordered_json rows() const;
 
  private:
@@ -33,9 +33,9 @@ class OverMaps {
   std::vector<Method> methods_;
 };
 
-// Returns a row for each way to fit a probe to the map, including "least_squares". The region is the sphere
-// or the hemisphere above the horizon. Adds the rows to over_maps if that is not null. Ratios to a black map
-// are null.
+// Returns a row for each way to fit a probe to the map, including "least_squares". The region is the sphere,
+// or the hemisphere above the horizon. If over_maps is not null, also adds the results to it. Ratios relative
+// to a black map are null.
 nlohmann::ordered_json probe_method_rows(const bake::Environment& map, const std::string& map_name,
                                          const std::vector<bake::probe::ProbeMethod>& methods,
                                          const bake::probe::Region& region,
@@ -47,16 +47,16 @@ nlohmann::ordered_json probe_method_rows(const bake::Environment& map, const std
 nlohmann::ordered_json probe_errors(const bake::Environment& map, const probe::Probes& probes);
 
 // Returns rows about reflections in a metal ball. The ball reflects the lobes that `nook bake probe` fits to
-// the map over the sphere. There are rows for three sets of amplitudes: for the light, for the light without
-// suns, and for glossy reflection. Each set has a row for every roughness and one for all. GlossError
-// explains the keys gloss_dark, gloss_negative, gloss_lowest, gloss_rms and gloss_mean. The truth is the map
-// without its suns.
+// the map, over all directions. There are rows for three sets of lobe amplitudes: for the light, for the
+// light without suns, and for glossy reflection. Each set has one row for every roughness and one row for all
+// of them together. GlossError explains the keys gloss_dark, gloss_negative, gloss_lowest, gloss_rms and
+// gloss_mean. The reference is the map without its suns.
 nlohmann::ordered_json gloss_rows(const bake::Environment& map, const std::string& map_name,
                                   std::uint32_t lobes, std::uint64_t seed);
 
-// Compares a baked file with its map. For lobes over the sphere, also returns gloss_dark and gloss_negative
-// over all roughnesses, for the amplitudes that glossy reflection reads. Throws Failure (BAD_FILE) for a
-// grid, because a map alone cannot measure it.
+// Compares a baked file with its map. If the file has lobes over the whole sphere, the row also has
+// gloss_dark and gloss_negative over all roughnesses, for the amplitudes that glossy reflection reads. Throws
+// Failure (BAD_FILE) for a grid, because a map alone cannot measure it.
 nlohmann::ordered_json probe_file_row(const bake::Environment& map, const std::string& map_name,
                                       const std::string& file_name, const probe::Probes& probes);
 
@@ -70,7 +70,8 @@ struct GridReportSettings {
   std::uint32_t max_bounces = ~0u;
   float origin_offset = 0;  // metres along the normal
   std::uint64_t seed = 1;
-  std::string direct;  // which direct light of the map both sides include; empty: as in the grid's recipe
+  std::string direct;  // the direct light of the map that both the grid and the reference include; empty: as
+                       // in the grid's recipe
 };
 
 // Returns the progress callback for the points of one kind of place.

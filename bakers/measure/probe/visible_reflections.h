@@ -1,7 +1,8 @@
-// Integrates over the light that a GGX surface reflects to the eye, with a regular grid of visible normals
-// (E. Heitz, Sampling the GGX Distribution of Visible Normals, 2018). The remaining weights are Fresnel and
-// the height-correlated masking of the light (E. Heitz, Understanding the Masking-Shadowing Function, 2014,
-// equation 99). Both are smooth, so grazing views are as exact as other views.
+// Integrates the light that a GGX surface reflects to the eye, with a regular grid of visible normals (E.
+// Heitz, Sampling the GGX Distribution of Visible Normals, 2018). Each reflected direction still needs two
+// weights: the Fresnel term, and the height-correlated masking of the light (E. Heitz, Understanding the
+// Masking-Shadowing Function, 2014, equation 99). Both are smooth, so grazing views are as exact as other
+// views.
 #pragma once
 
 #include <cmath>
@@ -14,7 +15,8 @@ namespace nook::measure {
 
 struct ReflectedDirection {
   double x, y, z;  // along tangent, bitangent and normal
-  double weight;   // share of the reflection without Fresnel; the weights sum to the albedo at reflectance 1
+  double weight;   // contribution to the reflection without Fresnel; the weights sum to the albedo of a
+                   // surface with reflectance 1
   double schlick;  // (1 - dot(view, micro normal))^5
 };
 
@@ -24,7 +26,8 @@ inline std::vector<ReflectedDirection> visible_reflections(double alpha_x, doubl
                                                            double z, int steps) {
   std::vector<ReflectedDirection> all;
   const double size = std::hypot(alpha_x * x, alpha_y * y, z);
-  const double vx = alpha_x * x / size, vy = alpha_y * y / size, vz = z / size;  // with isotropic slopes
+  const double vx = alpha_x * x / size, vy = alpha_y * y / size,
+               vz = z / size;  // the view, scaled so that the slopes are isotropic
   const double flat = std::hypot(vx, vy);
   const double ux = flat > 1e-7 ? -vy / flat : 1, uy = flat > 1e-7 ? vx / flat : 0;
   for (int i = 0; i < steps; ++i)

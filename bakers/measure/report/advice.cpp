@@ -44,7 +44,7 @@ bool holds(const Rule& rule, double value) {
   return rule.bound == Bound::at_least ? value >= rule.threshold : value <= rule.threshold;
 }
 
-// Shows words between grave accents as code.
+// Shows text between backticks as code.
 Html with_code(std::string_view words) {
   Html html;
   bool is_code = false;

@@ -19,7 +19,8 @@ struct Rule {
   Bound bound;
   double threshold;
   const char* meaning;  // what the measure means to the reader
-  const char* advice;   // {name} stands for an entry of Measures::name, {percent} and {value} for the measure
+  const char* advice;  // {name} is replaced by an entry of Measures::name; {percent} and {value} are replaced
+                       // by the measure
 };
 
 // Measured numbers. A rule gives no advice if its measure is missing.
@@ -35,10 +36,12 @@ struct Advice {
 
 std::vector<Rule> advice_rules();
 
-// Returns the rules that hold, in the table's order. A measure that is not finite gives no advice.
+// Returns the advice of the rules that apply, in the order of the table. A measure that is not finite gives
+// no advice.
 std::vector<Advice> advise(Subject subject, const Measures& measures);
 
-// Returns a list with each rule in small print, or a sentence if there is no advice.
+// Returns the advice as a list, in which the rule behind each entry is in small print. If there is no advice,
+// returns a sentence that says so.
 Html advice_list(Subject subject, const Measures& measures);
 
 }  // namespace nook::report

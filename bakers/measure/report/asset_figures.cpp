@@ -16,7 +16,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* no_report =
     "its error is stored only in the report of its bake, which is missing (bake it with --report)";
 
-// Reads an entry of JSON. The entry may be missing or have another type, because files come from anywhere.
+// Reads an entry of a JSON object. The entry may be missing or have another type, because the files can come
+// from any source.
 const Json& entry(const Json& object, const char* name) {
   static const Json none;
   if (!object.is_object()) return none;
@@ -62,7 +63,7 @@ AssetFigures measured(double over_limit, const std::string& figure) {
   return {state, over_limit, figure, {}};
 }
 
-// Returns the first name in a list of a report. These lists start with the worst.
+// Returns the first name in a list of the report. In these lists, the worst entry comes first.
 std::string first_name(const Json& judged, const char* list) {
   const Json& found = entry(judged, list);
   return found.is_array() && !found.empty() ? text_of(found[0], "name") : std::string();
@@ -80,8 +81,8 @@ std::string body_words(const Json& judged, double over_static) {
   return part.empty() ? words : words + "; most of the error is in: " + part;
 }
 
-// Returns the judgement from a report, or else the figures that the model stores. The stored figures have no
-// parts and names.
+// Returns the judgement from the report. If there is no report, returns the figures that the model stores,
+// which do not include body parts and names.
 Json judgement_of(const Json& facts, const Json& report) {
   if (entry(report, "judged").is_object()) return report["judged"];
   Json judged = Json::object();
@@ -95,7 +96,7 @@ AssetFigures body_figures(const Json& facts, const Json& report) {
   const auto over_static = value_of(judged, "over_static");
   if (!over_static) return unmeasured("its bake stored no error, because an earlier version of Nook made it");
   AssetFigures figures = measured(*over_static / bake::poor_ratio, body_words(judged, *over_static));
-  // A single clip may be worse than a static bake even if all clips together are not.
+  // A single clip may be worse than a static bake even if the mean over all clips is better.
   if (is(judged, "poor", true) && figures.state == AssetState::good) figures.state = AssetState::poor;
   return figures;
 }
@@ -165,7 +166,7 @@ AssetFigures material_figures(const Json& facts, const Json&) {
   if (!db)
     return unmeasured(words.empty() ? "its bake stored no verdict, because an earlier version of Nook made it"
                                     : words);
-  // Converts dB to a ratio of errors: 6 dB less mean twice the error.
+  // Converts dB to a ratio of errors. 6 dB less means twice the error.
   AssetFigures figures = measured(std::pow(10.0, (bake::material::good_db - *db) / 20), words);
   figures.state = state_of_verdict(text_of(facts, "recipe_verdict"), figures.state);
   return figures;

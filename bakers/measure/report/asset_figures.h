@@ -19,8 +19,8 @@ struct AssetFigures {
 // `nook inspect`.
 std::string asset_kind(const nlohmann::ordered_json& facts);
 
-// `report` is the row from the report of the file's bake. If it is null, the values that only reports contain
-// count as not measured.
+// `report` is the row of the report that the file's bake wrote. If it is null, values that only reports
+// contain are treated as not measured.
 AssetFigures asset_figures(const nlohmann::ordered_json& facts, const nlohmann::ordered_json& report);
 
 // Returns the duration of the bake from its report.

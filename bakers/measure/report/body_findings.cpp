@@ -72,7 +72,8 @@ void sort_by_share(std::vector<NamedError>& errors) {
       errors, [](const NamedError& a, const NamedError& b) { return a.error.square > b.error.square; });
 }
 
-// Calls see(pose, vertex, error) for each vertex-pose that is not black in ray tracing.
+// Calls see(pose, vertex, error) for each vertex in each pose, unless its ray-traced AO is black (see
+// visible_truth).
 template <class See>
 void for_each_seen(const MeasuredBody& body, See&& see) {
   for (std::size_t t = 0; t < body.poses.size(); ++t)
@@ -109,7 +110,7 @@ float size_of(std::span<const Vec3> points) {
   return length(high - low);
 }
 
-// Places are cells of a grid over the rest pose, so no neighbour search is needed.
+// The places are cells of a regular grid over the rest pose, so that no neighbour search is needed.
 using Cell = std::tuple<long, long, long>;
 
 bool are_near(const Cell& a, const Cell& b) {

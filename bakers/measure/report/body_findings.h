@@ -1,4 +1,4 @@
-// Finds where the error of a character model lies: in which clips, parts, joints and places.
+// Finds the clips, body parts, joints and places of a character in which the error of its model is large.
 #pragma once
 
 #include <cstdint>
@@ -29,7 +29,8 @@ struct MeasuredBody {
   }
 };
 
-// Squared errors of vertex-poses that are not black in ray tracing, weighted by rest area.
+// Squared errors of the vertex-poses whose ray-traced AO is not black, weighted by the vertices' area in the
+// rest pose.
 struct SeenError {
   double square = 0, weight = 0;
   void add(double error, double area) {
@@ -51,13 +52,13 @@ struct ClipError {
   double worst_rms = 0;
 };
 
-// A region of the surface. Its size is about a twentieth of the body's.
+// A region of the surface. Its size is about a twentieth of the body's size.
 struct Place {
   std::vector<std::uint32_t> vertices;
-  std::string joint;           // the joint that moves most of it
+  std::string joint;           // the joint that moves the largest part of the place
   std::size_t worst_pose = 0;  // the pose in which the place has the largest error
-  double rms = 0;              // in that pose
-  double share = 0;            // share of the whole body's error
+  double rms = 0;              // error in the worst pose
+  double share = 0;            // this place's fraction of the whole body's error
 };
 
 struct BodyFindings {

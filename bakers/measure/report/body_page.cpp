@@ -156,8 +156,8 @@ Html clip_table(const BodyFindings& found) {
   return found.clips.empty() ? Html() : table(rows);
 }
 
-// Chooses the poses of the pictures: the worst pose of each of the worst clips, or consecutive poses without
-// clips.
+// Chooses the poses for the pictures: the worst pose of each of the worst clips. If there are no clips,
+// chooses consecutive poses.
 std::vector<NamedPose> shown_poses(const MeasuredBody& body, const BodyFindings& found) {
   std::vector<NamedPose> poses;
   for (const ClipError& clip : found.clips)
@@ -204,7 +204,7 @@ Html places(const SkinnedMesh& mesh, const MeasuredBody& body, const BodyFinding
 std::vector<NamedPose> turned_poses(const MeasuredBody& body, const BodyFindings& found) {
   std::vector<NamedPose> poses = shown_poses(body, found);
   for (NamedPose& pose : poses) pose.name.append(", worst pose");
-  // The middle clip shows the usual case.
+  // Also shows the clip with the median error, as the usual case.
   if (found.clips.size() > shown_clips) {
     const ClipPoses* middle = nullptr;
     for (const ClipPoses& clip : body.clips)

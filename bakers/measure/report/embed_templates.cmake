@@ -1,5 +1,5 @@
 # cmake -DTEMPLATES=dir -DOUTPUT=file.cpp -P embed_templates.cmake
-# Turns every file of TEMPLATES into one C++ source; the tool needs no files at run time.
+# Writes all files of TEMPLATES into one C++ source file, so that the tool needs no template files at run time.
 cmake_minimum_required(VERSION 3.25)
 
 file(GLOB paths RELATIVE "${TEMPLATES}" "${TEMPLATES}/*")
@@ -9,7 +9,8 @@ set(table "")
 set(number 0)
 foreach(path IN LISTS paths)
   file(READ "${TEMPLATES}/${path}" text)
-  # MSVC takes up to 16,380 characters in a literal; literals side by side are one string.
+  # MSVC accepts at most 16,380 characters in one string literal, so long texts are split. The compiler
+  # concatenates adjacent literals.
   set(literals "")
   string(LENGTH "${text}" length)
   foreach(at RANGE 0 ${length} 12000)

@@ -15,7 +15,7 @@ using nook::nnao::Recording;
 
 constexpr int max_width_px = 900;
 
-// Reduces pictures that are wider than the page to every n-th pixel.
+// If a picture is wider than the page, keeps only every n-th pixel in both directions.
 Picture page_picture(const platform::Image& image) {
   const int step = (image.width + max_width_px - 1) / max_width_px;
   Picture picture{(image.width + step - 1) / step, (image.height + step - 1) / step, {}};
@@ -26,7 +26,8 @@ Picture page_picture(const platform::Image& image) {
   return picture;
 }
 
-// Returns the radius on the screen at a depth, in pixels, before the limits on pixels apply.
+// Returns the AO radius on the screen for a surface at this depth, in pixels, before the minimum and maximum
+// radius in pixels are applied.
 double radius_px(const Recording& recording, double depth) {
   const double height = double(recording.height);
   if (recording.frame.radius_kind != 0) return double(recording.frame.radius) * height;

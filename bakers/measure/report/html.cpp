@@ -131,7 +131,8 @@ Html figure(const bake::Picture& picture, const std::string& alternative, const 
          Html("\"><figcaption>") + caption + Html("</figcaption></figure>\n");
 }
 
-// Inserts values between the pieces of a template. The template itself is markup of this program.
+// Inserts values between the pieces of a template. The template itself is trusted markup that belongs to this
+// program.
 class HtmlFill {
  public:
   void append(std::string_view markup) { html_.code_ += markup; }

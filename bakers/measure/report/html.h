@@ -1,5 +1,5 @@
-// Pieces of a page. Text from files and arguments can become Html only through text(), which escapes it. So
-// no name can add markup or code to a page.
+// The pieces of a page. Text from files and arguments can only become Html through text(), which escapes it.
+// Names therefore cannot add markup or code to a page.
 #pragma once
 
 #include <cstddef>
@@ -49,18 +49,18 @@ class Html {
 // direction of writing, and bytes that are not UTF-8 become visible escapes.
 Html text(std::string_view plain);
 
-// Shows three significant digits. Values of at least 0.001 are in plain notation. Shows a dash if the value
-// is not finite.
+// Formats the value with three significant digits. Values of at least 0.001 are written without an exponent.
+// If the value is not finite, returns a dash.
 Html number(double value);
 Html percent(double share);
 Html byte_count(double bytes);
 
 std::string base64(const void* bytes, std::size_t size);
 
-// <tag>inside</tag>.
+// Returns <tag>inside</tag>.
 Html element(Markup tag, const Html& inside);
 
-// JSON as the text of a script element. Nothing in it can end the element.
+// Returns JSON as the text of a script element, escaped so that it cannot end the element.
 Html script_data(const nlohmann::ordered_json& data);
 
 // The first row holds the names of the columns.

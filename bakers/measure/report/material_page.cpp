@@ -22,7 +22,8 @@ using nook::material::MaterialTables;
 
 constexpr int panel_px = 180;
 constexpr float pi = std::numbers::pi_v<float>;
-// In units of the light of a white plane. Negative values nearer to 0 come from rounding and are not visible.
+// In units of the radiance of a white plane. Negative values that are closer to 0 come from rounding and are
+// not visible.
 constexpr float visibly_negative = -0.02f;
 constexpr std::array<float, 3> view_tilts{0, 0.7f, 1.2f};      // radians from the normal, along x
 constexpr std::array<float, 3> light_tilts{0.2f, 0.9f, 1.3f};  // along y
@@ -39,7 +40,7 @@ struct Sheet {
   double negative_share = 0;
 };
 
-// Columns are views, rows are lights. The tile is repeated twice along each axis.
+// Draws one column for each view and one row for each light. The tile is repeated twice along each axis.
 Sheet sheet_of(const MaterialTables& tables) {
   Sheet sheet{plain_picture(int(view_tilts.size()) * panel_px, int(light_tilts.size()) * panel_px, {}), 0};
   std::atomic<std::size_t> negative{0};

@@ -12,8 +12,8 @@ namespace {
 // Figures that differ by less than this count as equal.
 constexpr double least_change = 0.01;
 
-// Returns how bad a state is, for comparisons. Failed and broken rank equal, because in both cases there is
-// no model to load.
+// Returns how bad a state is, for comparisons. `failed` and `broken` are equally bad, because in both cases
+// there is no model to load.
 int rank_of(AssetState state) {
   switch (state) {
     case AssetState::failed:

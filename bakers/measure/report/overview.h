@@ -1,6 +1,6 @@
 // The page about all baked files of a folder: what failed, what looks worst, and what changed since the last
-// page. The page stores its rows as JSON. The page's script shows them in pieces, and the next page is
-// compared with them.
+// page. The page stores its rows as JSON. Its script shows the rows in pieces. When the next page is made, it
+// is compared with the stored rows.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@
 
 namespace nook::report {
 
-// Listed in the order of the page. `bad` starts at twice the limit of `poor`.
+// The states are in the order in which the page lists them. An asset is `bad` if its error is above twice the
+// limit of `poor`.
 enum class AssetState : std::uint8_t { failed, broken, bad, poor, good, unmeasured, gone };
 enum class AssetChange : std::uint8_t { none, fresh, worse, better, other_key, gone };
 inline constexpr std::size_t asset_state_count = 7, asset_change_count = 6;
@@ -30,7 +31,7 @@ struct Asset {
   AssetState state = AssetState::unmeasured;
   std::optional<double> over_limit;  // the visible error divided by the limit for its kind
   std::string figure;                // the visible error in words
-  std::string notes;                 // why the bake failed, and other remarks
+  std::string notes;                 // the reason why the bake failed, and other remarks
   std::uint64_t bytes = 0;
   std::optional<double> seconds;  // of the bake
   std::string key;                // key of the bake; empty: none
@@ -40,10 +41,10 @@ struct Asset {
   bool can_have_page = false;     // `nook report` has pictures for it
   std::string source;             // the source file that `nook report` needs; empty: none, "?": unknown
   AssetChange change = AssetChange::none;
-  std::string before;  // what the last page said about the asset, if it is worth showing
+  std::string before;  // what the last page said about the asset; empty if this is not shown
 };
 
-// How a kind is judged, for the reader.
+// A row of the table that tells the reader how files of one kind are judged.
 struct LimitRow {
   std::string kind, figure, limit;
 };
@@ -60,7 +61,7 @@ struct Overview {
 
 std::string overview_page(const Overview& overview);
 
-// What a page stores for the comparison with the next page.
+// The data that a page stores, so that the next page can be compared with it.
 struct LastPage {
   std::string made;
   std::vector<Asset> assets;
@@ -72,7 +73,7 @@ std::optional<LastPage> read_overview_page(std::string_view page);
 // Sets the changes of `assets` since the last page, and appends the assets that are gone.
 void mark_changes(std::vector<Asset>& assets, const LastPage& last);
 
-// Sorts by state, then by the visible error, then by name.
+// Sorts the assets by state, then by visible error, then by name.
 void sort_worst_first(std::vector<Asset>& assets);
 
 }  // namespace nook::report

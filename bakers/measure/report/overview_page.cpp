@@ -1,4 +1,5 @@
-// The page's frame: the sums above the list, how each kind is judged, and the data for the script.
+// Makes the fixed parts of the page: the totals above the list, the table of limits, and the data for the
+// script.
 #include <algorithm>
 #include <array>
 

@@ -10,7 +10,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A row is an array, because the names of columns in each row would take a third of the page.
+// Each row is a JSON array and not an object, because column names in each row would take a third of the
+// page.
 enum Column {
   name,
   kind,

@@ -1,5 +1,5 @@
-// The rows of the page about all baked files, as its JSON holds them. templates/overview.js reads the same
-// columns.
+// Converts between the assets and the JSON rows of the page about all baked files. templates/overview.js
+// reads the same columns.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -27,7 +27,8 @@ bool counts_bytes(const std::string& key) {
   return key.starts_with("bytes") || key.ends_with("_bytes");
 }
 
-// Shows the first entries. The sizes of sections and the settings of the bake unfold on a click.
+// Shows the first entries. The reader must click to unfold the sizes of sections and the settings of the
+// bake.
 Html facts_table(const Json& facts) {
   constexpr std::size_t open_rows = 12;
   const std::vector<Html> head{Html("what"), Html("value")};

@@ -1,4 +1,5 @@
-// Builds the page of any .nook file: advice, sections of its kind, sizes and settings, licences.
+// Builds the page of a .nook file of any kind. The page has advice, the sections for the file's kind, sizes
+// and settings, and licences.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -10,7 +11,7 @@
 
 namespace nook::report {
 
-// A shown file, and what it says about its licence.
+// A file that the page shows, and the licence text in the file.
 struct ShownFile {
   std::string name;
   bake::AssetNotes notes;
@@ -27,7 +28,7 @@ struct PageSource {
 struct PageParts {
   Html lead;      // the result in one or two sentences
   Html advice;    // made by advice_list
-  Html sections;  // each a section element
+  Html sections;  // a sequence of section elements
   Html scripts;   // may be empty
 };
 

@@ -21,8 +21,8 @@ namespace nook::report {
 struct BodySettings {
   std::uint32_t rays = 128;  // per vertex and pose
   std::uint64_t seed = 1;
-  std::size_t samples_per_clip = 0;      // 0: as many as max_rays allows, 2 to 20
-  std::uint64_t max_rays = 400'000'000;  // over all poses; takes a minute and a half on two cores
+  std::size_t samples_per_clip = 0;      // 0: as many as max_rays allows, at least 2 and at most 20
+  std::uint64_t max_rays = 400'000'000;  // over all poses; the default takes a minute and a half on two cores
 };
 
 // Shows poses from the clips that were not part of the bake, or from all clips if the bake used all. If the
@@ -33,14 +33,16 @@ PageParts body_parts(const measure::BakedCharacter& baked, const BodySettings& s
 // The page of a recorded frame of the screen-space pass.
 PageParts frame_parts(const nook::nnao::Recording& recording);
 
-// `bytes` is the file. `raw` is the file's source; null for no comparison.
+// `bytes` is the content of the file. `raw` is the raw material that the file was compressed from. If it is
+// null, the page has no comparison.
 PageParts material_parts(std::span<const std::byte> bytes, const nook::material::Material& material,
                          const bake::material::RawMaterial* raw);
 
-// `map` is the source of a single probe; null for no comparison. Pass null for a grid.
+// `map` is the map that a single probe was baked from. If it is null, the page has no comparison. Pass null
+// for a grid.
 PageParts probe_parts(const probe::Probes& probes, const bake::Environment* map);
 
-// `mesh` is the source of the transfer. Throws Failure(BAD_FILE) for another mesh.
+// `mesh` must be the mesh that the transfer was baked from. Throws Failure(BAD_FILE) if it is another mesh.
 PageParts transfer_parts(std::size_t bytes, const transfer::Transfer& transfer,
                          const bake::SurfaceMesh& mesh);
 

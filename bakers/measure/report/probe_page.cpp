@@ -21,7 +21,7 @@ using bake::Picture;
 using nook::probe::Probes;
 
 constexpr Colour background{0.32f, 0.34f, 0.38f};
-constexpr float mean_shade = 0.3f;  // linear value of a white surface in the mean light
+constexpr float mean_shade = 0.3f;  // linear pixel value of a white surface under the mean light
 constexpr std::uint32_t max_layers = 4;
 constexpr int max_side_px = 1000;
 
@@ -29,7 +29,8 @@ Vec3 irradiance_of(const Probes& probes, std::size_t index, Vec3 normal) {
   return nook::probe::irradiance(probes.basis, probes.of(index), nook::probe::IrradianceForm::bands, normal);
 }
 
-// Compares the irradiance in fourteen directions: towards the faces and the corners of a cube.
+// Statistics of a probe's irradiance for fourteen normals: towards the six faces and the eight corners of a
+// cube.
 struct BallLight {
   float mean = 0;      // luminance
   int below_zero = 0;  // directions with a luminance below 0
@@ -51,7 +52,7 @@ BallLight ball_light(const Probes& probes, std::size_t index) {
   return light;
 }
 
-// Draws a white ball in the light of a probe, seen from +z with +y up.
+// Draws a white ball that is lit by a probe. The viewer is at +z, and +y is up.
 void draw_ball(Picture& picture, int left, int top, int side, const Probes& probes, std::size_t index,
                float exposure) {
   constexpr int samples = 2;
@@ -72,7 +73,7 @@ void draw_ball(Picture& picture, int left, int top, int side, const Probes& prob
     }
 }
 
-// Draws one layer of constant y: x to the right, z down.
+// Draws the probes of one layer, which have the same y. x goes to the right, and z goes down.
 Picture layer_picture(const Probes& probes, std::uint32_t layer, float exposure) {
   const auto columns = int(probes.grid.counts[0]), rows = int(probes.grid.counts[2]);
   // Shows only every n-th probe if the grid is wider than the picture.
@@ -111,8 +112,8 @@ Html layers(const Probes& probes, float exposure) {
 
 struct Lit {
   float mean = 0;
-  double dark_share = 0;   // share of the probes
-  double below_share = 0;  // share of the directions of all probes
+  double dark_share = 0;   // fraction of the probes that are dark
+  double below_share = 0;  // fraction of the directions of all probes that are below zero
 };
 
 Lit light_of(const Probes& probes) {

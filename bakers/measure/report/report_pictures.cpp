@@ -24,7 +24,8 @@ float encoded(float linear) {
 }
 
 constexpr float relief = 0.3f, margin = 1.06f, pi = std::numbers::pi_v<float>;
-constexpr std::size_t tested_vertices = 3000;  // vertices whose visibility chooses a view
+constexpr std::size_t tested_vertices =
+    3000;  // number of vertices whose visibility is tested to choose a view
 
 Vec3 direction(float turn, float tilt) {
   return {std::cos(tilt) * std::sin(turn), std::sin(tilt), std::cos(tilt) * std::cos(turn)};
@@ -162,7 +163,8 @@ std::vector<Picture> eight_sides(const SkinnedMesh& mesh, std::span<const float>
   constexpr int width = 300, sides = 8;
   std::vector<float> scaled(vertex_rms.begin(), vertex_rms.end());
   for (float& value : scaled) value /= error_end;
-  // All sides have the same scale, which the widest side determines. Pictures are as high as the body.
+  // All eight pictures have the same scale. The widest view determines it. The height of the pictures fits
+  // the body.
   float metres_per_pixel = 0;
   std::vector<BodyCamera> cameras;
   for (int side = 0; side < sides; ++side) {
@@ -201,8 +203,8 @@ Picture compare_pose(const SkinnedMesh& mesh, const MeasuredBody& body, std::siz
   const Vec3 towards = view_of_error(mesh, body.poses[pose], looked_at, error);
   BodyCamera camera = camera_at(towards, points_of(posed, looked_at), width, height);
   if (!is_whole) {
-    // The picture also shows the surroundings, which help to recognise the place. They also give a place of
-    // one vertex a size.
+    // The picture also shows the surroundings of the place, so that the reader can recognise it. Without
+    // them, a place with a single vertex would have no size.
     Box body_box;
     for (const Vec3 p : posed) body_box.add(p);
     camera.metres_per_pixel =

@@ -28,7 +28,7 @@ constexpr float elevation_deg = 35, azimuth_deg = 30, field_of_view_deg = 34;
 
 struct Camera {
   Vec3 eye, forward, right, up;
-  float width = 0, height = 0;  // of the picture at a distance of 1
+  float width = 0, height = 0;  // size of the picture at a distance of 1
 };
 
 Camera camera_of(const bake::SurfaceMesh& mesh, const PictureSettings& settings) {
@@ -61,7 +61,7 @@ struct PixelHit {
   Vec3 origin;  // where rays to the light start
   Frame frame;
   std::vector<float> modes;  // the material, decoded for the pixel's view
-  std::vector<float> raw;    // the raw material, if it is the truth
+  std::vector<float> raw;    // the same from the raw material, if the reference uses it
 };
 
 class Renderer {
@@ -73,7 +73,7 @@ class Renderer {
         rays_({source.mesh.position, source.mesh.triangle}),
         offset_(bake::ray_origin_offset(source.mesh.position)),
         sampler_(source.map) {
-    // A light sample has no width, so holes are looked up at the finest level.
+    // A light ray does not have a footprint, so holes are looked up at the finest level.
     if (settings.truth.holes) holes_.emplace(source.mesh, *settings.truth.holes, settings.truth.tiles, 0.0f);
   }
 
@@ -123,8 +123,8 @@ class Renderer {
   }
 
  private:
-  // Returns the surface of a hit as a ray sees it. Pixels use the mipmap level of their footprint, other rays
-  // use the finest level.
+  // Returns the surface that a ray hit, with the material decoded for the direction of the ray. Camera rays
+  // use the mipmap level of the pixel's footprint, and other rays use the finest level.
   PixelHit surface_at(const bake::RayHit& found, Vec3 from, Vec3 direction, bool is_pixel) const {
     PixelHit hit;
     const bake::SurfaceMesh& mesh = source_.mesh;
@@ -219,7 +219,7 @@ class Renderer {
   std::optional<bake::transfer::SurfaceHoles> holes_;
 };
 
-// Linear radiance of all pixels. The truth has two independent halves.
+// Linear radiance of all pixels. The reference consists of two halves that are traced independently.
 struct Images {
   std::vector<bool> is_hit;
   std::array<std::vector<Vec3>, 2> truth;
@@ -297,7 +297,7 @@ PictureError measure_pictures(const PictureSource& source, const PictureSettings
     truth[i] = (images.truth[0][i] + images.truth[1][i]) * 0.5f;
     luminance += double(bake::luminance(truth[i]));
     count += 1;
-    // The mean of two halves has a quarter of the variance of their difference.
+    // The variance of the mean of two halves is a quarter of the variance of their difference.
     noise += squared(images.truth[0][i], images.truth[1][i]) / 4;
   }
   if (count == 0) return error;

@@ -12,7 +12,7 @@ namespace nook::measure {
 
 struct PictureSettings {
   int width = 480, height = 360;
-  std::uint32_t paths = 256;  // light samples per pixel of the truth
+  std::uint32_t paths = 256;  // light samples per pixel of the reference
   TruthSettings truth;
   std::uint64_t seed = 1;
 };
@@ -23,24 +23,24 @@ struct PictureSource {
   const VectorMeasure& vectors;
   std::size_t light = 0;  // index of the light of the vectors
   const bake::Environment& map;
-  // The material of the truth. If null, the truth uses the decoded material.
+  // The material that the reference is traced with. If null, the reference uses the decoded material.
   const RawReflectance* raw = nullptr;
 };
 
 struct PictureError {
-  // Mean squared error of linear radiance over the shape's pixels and RGB, minus the noise of the truth.
-  // Divided by the squared mean luminance of the truth over these pixels.
+  // Mean squared error of the linear radiance over the shape's pixels and over RGB, minus the noise of the
+  // reference. It is divided by the squared mean luminance of the reference over these pixels.
   std::array<double, 3> mse{};
-  double noise_floor_mse = 0;  // noise of the truth, same unit
-  bake::Picture sheet;         // truth, then the forms
+  double noise_floor_mse = 0;  // noise of the reference, in the same unit
+  bake::Picture sheet;         // the picture of the reference, then one picture for each form
 };
 
 // The camera looks at the centre of the bounding box from 35 degrees above the horizon. Each pixel has one
-// ray through its centre. The truth is the light of the map on the material as decoded at the pixel, with
-// `bounces` reflections on surfaces along the way. Half of the samples are distributed by luminance and half
-// by the cosine, combined by multiple importance sampling. Rays to the light pass through the holes of the
-// VOTF if the settings have them, but camera rays do not. Throws Failure(CANCELLED) if progress returns
-// false.
+// camera ray through its centre. The reference is the light that the map sends to the pixel's surface, where
+// paths may have up to `bounces` reflections on the way. The material is decoded at the pixel. Half of the
+// samples are distributed by luminance and half by the cosine. They are combined by multiple importance
+// sampling. If the settings contain the holes of the VOTF, rays to the light pass through them, but camera
+// rays do not. Throws Failure(CANCELLED) if progress returns false.
 PictureError measure_pictures(const PictureSource& source, const PictureSettings& settings,
                               const VectorProgress& progress);
 

@@ -31,7 +31,7 @@ using nook::transfer::Frame;
 using nook::transfer::Transfer;
 
 constexpr std::uint32_t truth_side = 32;  // 6,144 directions, as in the paper
-constexpr std::uint32_t light_side = 32;  // for the runtime's lights
+constexpr std::uint32_t light_side = 32;  // the same for the lights that the runtime uses
 constexpr float reach = 12;               // lobes are cut off at exp(-reach) of their height
 
 // The lobes around each direction.
@@ -57,7 +57,7 @@ LobeValues lobe_values(const CubeCells& cells, std::uint32_t lobes) {
   return out;
 }
 
-// For each channel, out += light * basis.
+// Adds light * basis to `out`, for each channel.
 void add_light(Vec3 light, std::span<const float> basis, std::span<float> out) {
   const std::size_t modes = basis.size() / 3;
   const float channel[3] = {light.x, light.y, light.z};
@@ -119,12 +119,12 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
   std::vector<std::vector<float>> direct_vectors(lights.size());
 
   const nook::transfer::Response response = response_of(tables, transfer.lobes);
-  // Times in the tables are for AVX2 if the processor has it.
+  // The times in the tables of the documents are for AVX2, so uses AVX2 if the processor has it.
   const Isa isa = isa_available(Isa::avx2) ? Isa::avx2 : choose_isa(NOOK_ISA_AUTO);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     LightVectors& vectors = measure.lights[l];
     for (std::vector<float>& form : vectors.form) form.resize(count * size);
-    // Measures processor time, because other work on the machine lengthens it less than wall-clock time.
+    // Measures processor time, because other programs on the machine disturb it less than wall-clock time.
     const std::clock_t begin = std::clock();
     baked_vectors(response, isa, lights[l].amplitudes, transfer, 0, transfer.vertex_count(),
                   {vectors.form[0].data(), size}, {}, default_memory());

@@ -46,8 +46,8 @@ float ao_factor(const WorldCaster& caster, CasterRadii radii) {
   return radii == CasterRadii::ao ? caster.ao_scale : 1;
 }
 
-// Moves a capsule from rest space to the space of the bone's joint. The radii stay in metres, because a
-// joint's scale only expresses a unit.
+// Transforms a capsule from rest space to the space of the bone's joint. The radii stay in metres, because
+// the scale of a joint only converts units.
 Capsule in_joint(const CharacterModel& model, const WorldCaster& caster, const Capsule& capsule) {
   const Mat3x4& m = model.bind.bones[caster.bone].node_from_rest;
   const float scale = scale_of(m);
@@ -63,7 +63,8 @@ std::vector<std::vector<std::size_t>> by_bone(const CharacterModel& model) {
   return casters;
 }
 
-// Unreal's axes are left-handed with z up. Its importers exchange y and z of every joint.
+// Converts a position to Unreal's axes, which are left-handed with z up. Unreal's importers swap y and z of
+// every joint.
 Vec3 unreal_axes(Vec3 p) {
   return centimetres * Vec3{p.x, p.z, p.y};
 }
@@ -120,7 +121,8 @@ std::string source2_text(const CharacterModel& model, std::span<const Capsule> c
   return text;
 }
 
-// Returns the name as a JSON string. The name is not changed, so that an engine finds the node.
+// Returns the name as a JSON string. Escapes do not change the name itself, so that an engine finds the node
+// by it.
 std::string json_string(const String& name) {
   using Json = nlohmann::json;
   return Json(std::string(name.data(), name.size())).dump(-1, ' ', false, Json::error_handler_t::replace);
@@ -147,7 +149,8 @@ std::string gltf_text(const CharacterModel& model) {
   return text;
 }
 
-// Returns a comment before Unreal's and Source 2's text. glTF has a member instead.
+// Returns the comment that goes before the text for Unreal and Source 2. The glTF form has a member for this
+// purpose instead.
 std::string note_of(const ExportError& error, CasterRadii radii) {
   std::string text;
   add(text,
@@ -166,8 +169,8 @@ std::vector<Capsule> engine_capsules(const CharacterModel& model, CasterFormat f
     c.radius_a *= factor;
     c.radius_b *= factor;
     if (format != CasterFormat::gltf) {
-      // The mean projected area is a quarter of the surface area (Cauchy). The side of a cone frustum has
-      // about the same area as the side of a cylinder with the mean radius.
+      // The mean projected area of a convex body is a quarter of its surface area (Cauchy). The lateral area
+      // of a cone frustum is about that of a cylinder with the mean radius.
       const float half = 0.5f * length(c.b - c.a);
       const float area = half * 0.5f * (c.radius_a + c.radius_b) +
                          0.5f * (c.radius_a * c.radius_a + c.radius_b * c.radius_b);

@@ -11,20 +11,23 @@
 namespace nook::measure {
 
 enum class CasterFormat {
-  unreal,   // bodies of a physics asset, as objects in Unreal's text form; centimetres
+  unreal,   // bodies of a physics asset, in Unreal's text format for objects; centimetres
   source2,  // capsules of a ModelDoc file; inches
   gltf      // "extras" of a glTF file; metres
 };
 
-// Which radii to write. Unreal and Source 2 have one radius for both AO and light.
+// Selects the radii to write. In Unreal and Source 2, a capsule has a single radius, which is used for both
+// AO and light.
 enum class CasterRadii { ao, light };
 
-// Returns the capsules of such a file, in rest space. In Unreal's and Source 2's formats, a capsule has one
-// radius. This radius gives the capsule the same mean projected area as Nook's capsule.
+// Returns the capsules that a file of this format contains, in rest space. A capsule of Nook can have two end
+// radii. In the formats of Unreal and Source 2, a capsule has only one. It is chosen so that the capsule has
+// the same mean projected area as Nook's capsule.
 std::vector<Capsule> engine_capsules(const CharacterModel& model, CasterFormat format, CasterRadii radii);
 
-// Compares the AO on the floor below the rest pose from the written capsules with the AO from the model's own
-// casters. Both use the exact form. This error remains even if an engine evaluates capsules exactly.
+// The error of the written capsules: their AO on the floor below the rest pose, compared with the AO of the
+// model's own casters. Both are evaluated exactly. This error therefore remains even if an engine evaluates
+// capsules exactly.
 struct ExportError {
   double rms = 0, largest = 0;  // AO
   double over_none = 0;         // mean squared error divided by the mean squared error without darkening

@@ -24,8 +24,8 @@ float smooth_step(float from, float to, float x) {
   return t * t * (3 - 2 * t);
 }
 
-// Returns the share of a cone that a sphere hides. It is the overlap of two discs on the unit sphere, which
-// falls smoothly from the smaller disc to 0.
+// Returns the share of a cone of light that a sphere hides. It is the overlap of two discs on the unit
+// sphere. As the discs move apart, the overlap falls smoothly from the area of the smaller disc to 0.
 float sphere_in_cone(Vec3 centre, float radius, Vec3 point, const LightCone& cone) {
   const Vec3 d = centre - point;
   const float distance = length(d);
@@ -106,8 +106,8 @@ struct Ellipsoid {
   std::uint16_t bone = 0;
 };
 
-// Returns the half axes of a surface with constant density. They are sqrt(3) standard deviations along each
-// principal axis.
+// Fits an ellipsoid to the surface that belongs to each bone. The half axes are sqrt(3) standard deviations
+// along each principal axis, as for a surface with constant density.
 std::vector<Ellipsoid> bone_ellipsoids(const bake::SkinnedMesh& mesh) {
   const std::vector<float> area = bake::vertex_areas(mesh, mesh.position);
   struct Moments {
@@ -167,8 +167,7 @@ class Ellipsoids final : public Darkener {
       Vec3 d;
       float height = 0;
       float* const along[3] = {&d.x, &d.y, &d.z};
-      // Under the scaling of positions, the normal scales with the inverse, so that it stays perpendicular to
-      // its plane.
+      // Positions are scaled, so the normal must be scaled by the inverse to stay perpendicular to its plane.
       Vec3 n;
       float* const facing[3] = {&n.x, &n.y, &n.z};
       for (int i = 0; i < 3; ++i) {
@@ -185,7 +184,7 @@ class Ellipsoids final : public Darkener {
     for (const Ellipsoid& e : posed_) {
       const Vec3 d = e.centre - point;
       const float distance = length(d);
-      // The sphere has the ellipsoid's extent across the line of sight.
+      // Replaces the ellipsoid by a sphere with the same extent across the line of sight.
       const Vec3 aside = normalised(d - dot(d, cone.axis) * cone.axis);
       float radius2 = 0;
       for (int i = 0; i < 3; ++i) radius2 += std::pow(e.half[i] * dot(e.axis[i], aside), 2.0f);
@@ -258,7 +257,7 @@ class ProxySpheres final : public Darkener {
   std::vector<Sphere> spheres_;
 };
 
-// The scales that a baseline may choose from.
+// The scales among which the best one is chosen for a baseline.
 constexpr int scale_count = 23;
 float scale_at(int i) {
   return 0.5f + 0.05f * float(i);

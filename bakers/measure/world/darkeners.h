@@ -30,8 +30,9 @@ class Darkener {
   virtual float cone(Vec3 point, const LightCone& cone) const = 0;
 };
 
-// A method is a family of variants, which differ in one free scale. For each surface, the variant with the
-// smallest error counts. It is chosen on the same poses that are scored, which favours the baselines.
+// A method has several variants, which differ in one free scale. For each surface, only the variant with the
+// smallest error counts. It is chosen on the same poses on which the methods are scored. This favours the
+// baselines.
 struct Method {
   std::string name;
   std::vector<std::unique_ptr<Darkener>> variant;
@@ -39,12 +40,13 @@ struct Method {
 
 // "nook": the casters as the runtime evaluates them.
 Method nook_method(std::vector<WorldCaster> casters);
-// "capsules" has one capsule for each bone, fitted by principal axes. Each capsule is evaluated as a sphere
-// on its segment, namely the one nearest to the point or to the axis of the cone. The open shares of the
-// capsules are multiplied together. One scale applies to all radii.
+// "capsules" has one capsule for each bone, fitted by principal axes. Each capsule is evaluated as one sphere
+// with its centre on the capsule's segment. For AO, it is the sphere nearest to the point. For a cone of
+// light, it is the sphere nearest to the cone's axis. The open shares of the capsules are multiplied
+// together. One scale applies to all radii.
 Method capsule_method(const bake::SkinnedMesh& mesh);
-// "ellipsoids" works like "capsules", with an ellipsoid for each bone. Each ellipsoid is evaluated as the
-// unit sphere in its own space.
+// "ellipsoids" works like "capsules", but with one ellipsoid for each bone. Space is scaled so that the
+// ellipsoid becomes the unit sphere, and this sphere is evaluated.
 Method ellipsoid_method(const bake::SkinnedMesh& mesh);
 // "blobs" is a round blob on the floor below the body. The best radius and strength are chosen.
 Method blob_method(const bake::SkinnedMesh& mesh);

@@ -23,11 +23,12 @@ using Json = nlohmann::ordered_json;
 constexpr float visible_ao = 0.01f;
 constexpr std::uint32_t visible_rays = 128;
 
-// Ways to light a point.
+// The methods that are compared, as named in rows.
 constexpr std::array<const char*, 3> methods{"none", "ao_x_probe", "per_lobe"};
 
-// Sums of squared errors over the points of a surface in a pose, over all three channels. There are sums for
-// all light, for the soft part alone, and for all light with the map's own irradiance in place of the lobes.
+// Sums of squared errors over the points of a surface in a pose and over all three channels. There are three
+// sums: for all light, for the soft light alone, and for all light but with the exact irradiance of the map
+// in place of the lobes.
 struct Sums {
   double weight = 0;
   std::array<double, methods.size()> all{}, soft{}, exact{};

@@ -1,4 +1,5 @@
-// Computes bounds for the ratio of two methods' errors, because the ratio depends on the measured poses.
+// Computes confidence bounds for the ratio of two methods' errors. The ratio is uncertain because it depends
+// on which poses were measured.
 #pragma once
 
 #include <algorithm>
@@ -14,8 +15,8 @@ struct RatioBounds {
   double low = 0, high = 0;
 };
 
-// Returns the 95 % bootstrap interval of the ratio of two sums: poses are drawn with replacement. `over` and
-// `under` have one number per pose.
+// Returns the 95 % bootstrap interval of the ratio of two sums. The bootstrap draws poses with replacement.
+// `over` and `under` have one value per pose.
 inline RatioBounds ratio_bounds(const std::vector<double>& over, const std::vector<double>& under,
                                 std::size_t draws, std::uint64_t seed) {
   std::vector<double> ratio;

@@ -25,11 +25,11 @@ using Json = nlohmann::ordered_json;
 constexpr float cell_m = 0.01f, light_degrees = 1, half_open = 0.5f;
 constexpr std::size_t directions = 8;
 constexpr float up_radians = 0.25f * std::numbers::pi_v<float>;
-// Cells where the first rays disagree may be near the outline, where half of the light is hidden. They take
-// more rays.
+// If the first rays of a cell disagree, the cell may be near the outline of the shadow, where half of the
+// light is hidden. Such a cell is traced with more rays.
 constexpr std::uint32_t first_rays = 7, rays_at_edges = 48;
 
-// Cells of the floor that the body may shade.
+// The grid of floor cells that the body may shade.
 struct Floor {
   Vec3 corner;
   int columns = 0, rows = 0;

@@ -1,4 +1,5 @@
-// Compares the outlines of shadows on the floor with ray tracing, under a light with an angle of one degree.
+// Compares the outlines of shadows on the floor with ray-traced shadows, under a light with an angular
+// diameter of one degree.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,10 +9,10 @@
 
 namespace nook::measure {
 
-// Returns one row for each method that has a shape of its own: nook and capsules. `iou` is the intersection
-// over union of the shadow and the traced shadow: the mean over all shadows of the best variant. `iou_low` is
-// the value of the worst shadow. Throws Failure (INVALID_ARGUMENT: the model has no world casters;
-// CANCELLED).
+// Returns one row for each method whose shadows have an outline: nook and capsules. `iou` is the intersection
+// over union of the shadow and the traced shadow, averaged over all shadows, for the method's best variant.
+// `iou_low` is the lowest value of any shadow. Throws Failure (INVALID_ARGUMENT: the model has no world
+// casters; CANCELLED).
 nlohmann::ordered_json silhouette_rows(const bake::SkinnedMesh& mesh, const CharacterModel& model,
                                        std::span<const bake::Pose> poses, const WorldStudy& study,
                                        const WorldProgress& progress);

@@ -1,5 +1,5 @@
-// Splits a map as a host draws it: the brightest sun becomes a cone of light, the rest becomes lobes. Also
-// computes how much of both the casters block.
+// Splits a map in the way in which a host draws it: the brightest sun becomes a cone of light, and the rest
+// of the light becomes lobes. Also computes how much of the cone and of the lobes the casters block.
 #pragma once
 
 #include <optional>
@@ -31,7 +31,7 @@ struct SplitLight {
 
   float sun_half_angle_radians() const;
   Vec3 sun_irradiance(Vec3 normal) const;   // without a body
-  Vec3 soft_irradiance(Vec3 normal) const;  // the same for the lobes
+  Vec3 soft_irradiance(Vec3 normal) const;  // without a body, from the lobes
 };
 
 SplitLight split(const NamedMap& named);
@@ -41,7 +41,7 @@ struct SampledLight {
   std::vector<float> ao, cone, rgb;
 };
 
-// Returns the shares that the casters leave open, like nook_world_sample.
+// Returns the shares of the light that the casters leave open, in the same way as nook_world_sample.
 SampledLight sample_light(std::span<const PosedCaster> casters, const bake::SurfacePoints& points,
                           const SplitLight& light);
 

@@ -90,7 +90,8 @@ std::vector<float> values_of(const View& view, const Value& value) {
   return values;
 }
 
-// Returns the values of the variant that is closest to the truth at every 23rd pixel.
+// Returns the values of the best variant. It is the one closest to the reference, as measured at every 23rd
+// pixel.
 template <class Value>
 std::vector<float> best_of(const Method& method, const View& view, std::span<const float> truth,
                            const Value& value) {

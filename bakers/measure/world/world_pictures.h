@@ -9,9 +9,10 @@
 
 namespace nook::measure {
 
-// Writes pose_0.png, pose_1.png, ... for `count` evenly picked poses. They show a floor and a wall at 0.3 m
-// under AO (above) and under a cone of light of 20 degrees (below). The columns are ray tracing, Nook,
-// capsules and blobs. The baselines have the best scale for each picture. Creates the directory.
+// Writes pose_0.png, pose_1.png, ... for `count` poses that are picked at even intervals. Each picture shows
+// a floor, and a wall 0.3 m behind the body. The upper row shows AO, and the lower row a cone of light of 20
+// degrees. The columns are ray tracing, Nook, capsules and blobs. Each baseline uses its best scale in each
+// picture. Creates the directory.
 void write_world_pictures(const std::filesystem::path& directory, const bake::SkinnedMesh& mesh,
                           const CharacterModel& model, std::span<const bake::Pose> poses, std::size_t count,
                           std::uint32_t rays, std::uint64_t seed);

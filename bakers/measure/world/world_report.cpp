@@ -39,8 +39,9 @@ struct Surface {
   std::vector<Sums> pose = {};
 };
 
-// Points with their traced truth, computed twice with half of the rays each. The two have independent noise,
-// so the mean of (value - first) (value - second) is the squared error without the noise of the rays.
+// Points with their traced reference values. Each value is traced twice, with half of the rays each. The two
+// results have independent noise. The mean of (value - first) * (value - second) is therefore the squared
+// error without the noise of the rays.
 struct TracedPoints {
   SurfacePoints points;
   std::vector<float> first, second;
@@ -107,7 +108,7 @@ Sums sums_of(const TracedPoints& traced, std::size_t variants, const Value& valu
 
 struct FlatMethod {
   std::string name;
-  std::size_t first = 0, count = 0;  // of all variants
+  std::size_t first = 0, count = 0;  // the range of this method in the list of all variants
 };
 
 std::size_t best_variant(const Surface& surface, const FlatMethod& method) {
@@ -231,7 +232,7 @@ Json world_rows(const SkinnedMesh& mesh, const CharacterModel& model, std::span<
     score(2, visible_points(scene, contact_points(body, study.points, random.bits()), rays));
     score(3, visible_points(
                  scene, neighbour_points(body.position, other, bearing, study.points, random.bits()), rays));
-    // The light comes from the wall's side, halfway up.
+    // The light comes from the side of the wall.
     const float up = float(std::sin(cone_elevation_radians)), aside = float(std::cos(cone_elevation_radians));
     for (std::size_t c = 0; c < study.cone_degrees.size(); ++c) {
       LightCone cone;

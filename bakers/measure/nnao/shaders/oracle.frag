@@ -1,21 +1,21 @@
 #version 330 core
-// The oracle uses 1,024 taps and no tuned parameters. Each tap is a line of length `thickness` that starts at
-// the surface and leads away from the viewer. The part of the line within the radius blocks the directions in
-// which it lies. The open directions are weighted with the cosine. Outside the screen, the oracle uses the
-// depth at the border. The radius is never reduced.
+// The oracle uses 1,024 taps and no tuned parameters. Each tap adds an occluder: a line of length `thickness`
+// that starts at the visible surface and leads away from the viewer. The part of the line within the radius
+// blocks the directions towards its points. The AO is the cosine-weighted share of the directions that stay
+// open. Outside the screen, the oracle uses the depth at the border. The radius is never reduced.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
-uniform float thickness;  // in radii; 0: everything behind a surface within the radius is solid
+uniform float thickness;  // in radii; 0: all space behind a surface within the radius is solid
 
 const float pi = 3.14159265;
-const int groups = 16;  // slices, 32 directions
+const int groups = 16;  // slices; each slice has two sides, so there are 32 directions
 const int steps = 32;
 
 #include "bakers/measure/nnao/shaders/slice.glsl"
 
 out float result;
 
-const float sectors = 128.0;  // of equal cosine-weighted size
+const float sectors = 128.0;  // sectors of a slice, each with the same cosine-weighted size
 
 // Returns two numbers in (0, 1) that differ between the pixels of a 4 x 4 block.
 vec2 pixel_noise(ivec2 pixel) {
@@ -59,9 +59,9 @@ struct Frame {
   vec3 across, viewer, normal;
 };
 
-// Returns the angle of an offset in the slice. A tap's pixel lies up to half a pixel beside the slice. The
-// tap is moved into the slice at the same height above the tangent plane, so that a flat surface blocks
-// nothing.
+// Returns the angle of an offset in the slice. The pixel of a tap can lie up to half a pixel beside the slice.
+// Such a tap is moved into the slice, and keeps its height above the tangent plane. A flat surface therefore
+// does not block anything.
 float angle_in(Frame frame, vec3 offset) {
   float u = dot(offset, frame.across), v = dot(offset, frame.viewer);
   float slope = dot(frame.normal, frame.viewer);
@@ -74,7 +74,7 @@ uvec4 closed_by(Frame frame, ivec2 at, float depth, vec3 position, float radius)
   // Only surfaces within the radius form a horizon. Otherwise, every object in front of a wall would darken
   // the wall.
   if (thickness <= 0.0 && dot(front, front) > radius * radius) return uvec4(0u);
-  // Finds the part of the line `front + s * behind` whose points are nearer to the origin than `radius`.
+  // Finds the part of the line `front + s * behind` that is within `radius` of the origin.
   float along = dot(front, behind), inside = along * along - dot(front, front) + radius * radius;
   if (inside <= 0.0) return uvec4(0u);
   float near = max(-along - sqrt(inside), 0.0), far = -along + sqrt(inside);

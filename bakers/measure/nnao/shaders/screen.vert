@@ -1,5 +1,5 @@
 #version 330 core
-// One triangle over the whole image; it needs no attribute.
+// Draws one triangle that covers the whole image. It does not need vertex attributes.
 void main() {
   vec2 corner = vec2((gl_VertexID << 1) & 2, gl_VertexID & 2);
   gl_Position = vec4(2.0 * corner - 1.0, 0.0, 1.0);

@@ -1,6 +1,6 @@
-// Slices of the hemisphere through the direction to the viewer. Horizon and bitmask methods share them.
-// Angles are measured from the viewer's direction, in radians, and grow along the slice's direction on the
-// screen.
+// A slice is a plane that contains the direction to the viewer and cuts the hemisphere. Horizon and bitmask
+// methods both use slices. Angles in a slice are measured from the direction to the viewer, in radians. They
+// grow along the slice's direction on the screen.
 struct Slice {
   vec2 direction;   // on the screen
   float tilt;       // angle of the normal, projected into the slice
@@ -24,8 +24,8 @@ float step_px(int k, vec2 noise, float radius_px) {
   return max(float(k) + 1.0, radius_px * share * share);
 }
 
-// Returns the integral of cos(t - tilt) |sin t| from the viewer's direction to an angle (Jimenez et al.,
-// equation 7).
+// Returns the integral of cos(t - tilt) |sin t| over t, from the direction to the viewer (t = 0) to `angle`
+// (Jimenez et al., equation 7).
 float arc(float angle, float tilt) {
   return 0.25 * (cos(tilt) + 2.0 * angle * sin(tilt) - cos(2.0 * angle - tilt));
 }

@@ -1,5 +1,5 @@
-// Depth, normals and the radius, as every method sees them. View space is OpenGL's, in metres. Pixels count
-// from the lower left corner.
+// The depth, normals and radius that every method uses. View space is as in OpenGL, in metres. Pixels are
+// counted from the lower left corner.
 uniform sampler2D depth_image;   // -z, metres; infinite: no surface
 uniform sampler2D normal_image;  // view space, unit length
 uniform vec4 screen_rays;        // x_scale, x_offset, y_scale, y_offset: x / depth = x_scale px + x_offset
@@ -27,7 +27,7 @@ float pixels_per_metre(float depth) {
   return 1.0 / abs(screen_rays.z * depth);
 }
 
-// Returns the radius at a pixel, in metres and in pixels. The radius is reduced where it would cover too many
+// Returns the radius at a pixel: x in metres and y in pixels. The radius is reduced if it would cover too many
 // pixels.
 vec2 pixel_radius(float depth) {
   float per_metre = pixels_per_metre(depth);
