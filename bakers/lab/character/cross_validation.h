@@ -1,4 +1,5 @@
-// Cross-validation of the baselines: which poses are left out together, and which vertices are evaluated.
+// Functions for the cross-validation of the baselines. They choose which poses are left out together, and
+// which vertices are evaluated.
 #pragma once
 
 #include <Eigen/Dense>
@@ -11,8 +12,8 @@
 
 namespace nook::lab {
 
-// Each fold consists of runs of neighbouring poses. Consecutive frames of a clip are almost equal, so folds
-// of single poses would lead to far too little regularisation.
+// Each fold consists of runs of neighbouring poses. Consecutive frames of a clip are almost equal. If a fold
+// left out only single poses, cross-validation would choose far too little regularisation.
 struct ValidationFold {
   std::vector<Eigen::Index> fitted, left_out;
 };
@@ -36,7 +37,7 @@ struct SizedError {
 };
 std::size_t smallest_near_best(const std::vector<SizedError>& candidates, double slack);
 
-// Rounds the values to half precision, as in a stored model.
+// Rounds the values to half precision, as if the model were stored in a file.
 void round_to_half(BaselineMatrix& values);
 
 }  // namespace nook::lab

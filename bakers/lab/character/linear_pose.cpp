@@ -21,18 +21,18 @@ using namespace measure;
 using Eigen::Index;
 
 constexpr std::array ridges{1e-6, 1e-5, 1e-4, 1e-3, 3e-3,
-                            1e-2, 3e-2, 1e-1, 3e-1, 1.0};  // times the mean variance
+                            1e-2, 3e-2, 1e-1, 3e-1, 1.0};  // in units of the mean variance
 constexpr std::array<Index, 12> ranks{2, 4, 8, 16, 24, 32, 48, 64, 96, 128, 192, 256};
 constexpr std::size_t voting_vertices = 384;
 constexpr double rank_slack = 0.005;
 
 struct Parametrisation {
   FeatureKind kind = FeatureKind::axis_angle;
-  bool scaled = false;  // whether each parameter is scaled to unit variance
+  bool scaled = false;  // true if each parameter is scaled to unit variance
 };
 
-// The diagonalised normal equations of one set of poses. Each ridge and rank then needs only matrix products:
-// coefficients = Q (S + ridge)^-1 Q^T X^T Y.
+// The diagonalised normal equations of one set of poses. With them, the solution for any ridge and rank needs
+// only matrix products: coefficients = Q (S + ridge)^-1 Q^T X^T Y.
 struct NormalEquations {
   Eigen::RowVectorXf feature_mean, feature_scale, target_mean;
   Eigen::MatrixXd q;        // eigenvectors of the features' covariance
@@ -52,7 +52,7 @@ NormalEquations diagonalise(const BaselineMatrix& features, bool scaled) {
   if (scaled) {
     const Eigen::RowVectorXf variance =
         (features.rowwise() - n.feature_mean).colwise().squaredNorm() / float(features.rows());
-    // A parameter that never changes is 0 with any scale.
+    // A parameter that never changes is 0 after the mean is subtracted, so any scale will do.
     for (Index i = 0; i < variance.size(); ++i)
       n.feature_scale[i] = variance[i] > 1e-10f ? 1 / std::sqrt(variance[i]) : 0.0f;
   }
@@ -181,7 +181,7 @@ class LinearPose final : public PoseRegression {
     for (const Eigen::MatrixXd& part : rotated) outer += part * part.transpose();
     const RankBasis basis = rank_basis(n, choice_.ridge, outer);
     rank = std::min(rank, x.cols());
-    // The latent coordinates are scaled so that half floats store them without overflow or loss of precision.
+    // Scales the latent coordinates so that half floats can store them without overflow or loss of precision.
     const Eigen::MatrixXd u = basis.u.leftCols(rank);
     const Eigen::MatrixXd to_latent =
         n.feature_scale.cast<double>().asDiagonal() * n.q * basis.inverse_root.asDiagonal() * u;
@@ -214,7 +214,7 @@ class LinearPose final : public PoseRegression {
   }
 
  private:
-  static constexpr std::size_t block = 256;  // vertices solved together
+  static constexpr std::size_t block = 256;  // number of vertices that are solved together
 
   Choice choice_;
   PoseFeatures features_;
@@ -244,7 +244,7 @@ std::unique_ptr<PoseRegression> fit_linear_pose(const SkinnedMesh& mesh, std::sp
       }
     }
   auto model = std::make_unique<LinearPose>(mesh, best);
-  // Without parameters, or with too few poses, the model is only the mean.
+  // If there are no parameters or too few poses, the model consists only of the mean.
   const Index rank =
       first ? 0 : choose_rank(PoseFeatures(mesh, best.parametrisation.kind).of(poses), voting, best, folds);
   model->fit(poses, targets, rank);

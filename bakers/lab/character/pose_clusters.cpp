@@ -22,18 +22,18 @@ using Eigen::Index;
 constexpr std::array<Index, 6> cluster_counts{1, 2, 4, 8, 16, 32};
 constexpr std::array<Index, 8> ranks{2, 4, 8, 16, 32, 64, 128, 192};
 constexpr std::array ridges{1e-4, 1e-3, 1e-2, 3e-2,
-                            1e-1, 3e-1, 1.0};  // times the mean variance of a basis direction
+                            1e-1, 3e-1, 1.0};  // in units of the mean variance of a basis direction
 // Candidates for the width of the blend: the variance of its Gaussian divided by the mean squared distance of
 // the poses to their nearest centre.
 constexpr std::array widths{0.1, 0.3, 1.0, 3.0};
 constexpr double first_width = 0.3;
 constexpr std::size_t voting_vertices = 256;
 constexpr double size_slack = 0.005;
-constexpr float least_weight = 1e-3f;  // a cluster ignores poses with a smaller weight
+constexpr float least_weight = 1e-3f;  // the fit of a cluster ignores poses with a smaller weight
 
 struct Settings {
   FeatureKind kind = FeatureKind::axis_angle;
-  bool by_moved_share = false;  // metric of poses; see PoseSpace
+  bool by_moved_share = false;  // selects the distance metric for poses; see PoseSpace
   Index clusters = 1, rank = ranks.back();
   double ridge = ridges.back(), width = first_width;
 };
@@ -58,8 +58,8 @@ std::vector<Index> seen_by(const BaselineMatrix& weights, Index cluster) {
   return rows;
 }
 
-// The weighted least squares of one cluster in its own principal components, before a ridge and a rank are
-// applied. The basis makes the normal equations diagonal.
+// The weighted least-squares problem of one cluster, before a ridge and a rank are applied. It is expressed
+// in the cluster's own principal components, so that the normal equations are diagonal.
 struct ClusterFit {
   Eigen::RowVectorXf feature_mean, target_mean;
   BaselineMatrix basis;        // features x maximum components, strongest first
@@ -185,7 +185,7 @@ class Search {
   std::vector<SizedError> errors_;
 };
 
-// Chooses the space of poses first, then the number of clusters, then the width of the blend.
+// First chooses the space of poses, then the number of clusters, and finally the width of the blend.
 Settings choose_settings(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
                          std::uint64_t seed) {
   Search search(poses, targets, seed);
@@ -201,8 +201,8 @@ Settings choose_settings(const SkinnedMesh& mesh, std::span<const Pose> poses, c
   for (Index clusters : cluster_counts)
     if (clusters != 1 && clusters != 8)
       search.measure(space, x, {first.kind, first.by_moved_share, clusters});
-  // The width has no effect with a single cluster. Two clusters may still be better with another width, so at
-  // least two are tried.
+  // With a single cluster, the width has no effect. Two clusters may become better than one if the width
+  // changes, so the search over widths uses at least two clusters.
   const Index clusters = std::max<Index>(search.best(0).clusters, 2);
   for (double width : widths)
     if (width != first_width)
@@ -287,8 +287,8 @@ class PoseClusters final : public PoseRegression {
     round_to_half(cluster.map);
   }
 
-  // The ridge is relative to the mean variance of the components. The mean is over the largest number of
-  // components in validation, whichever rank is chosen.
+  // The ridge is relative to the mean variance of the components. This mean is always taken over the largest
+  // number of components that validation used, independent of the chosen rank.
   Eigen::VectorXf full_shrinkage(const BaselineMatrix& seen_x, const Eigen::VectorXf& seen_w) const {
     const ClusterFit full = principal_components(seen_x, seen_w, ranks.back());
     return shrinkage(full, settings_.ridge).head(settings_.rank);
@@ -302,7 +302,7 @@ class PoseClusters final : public PoseRegression {
   std::vector<Cluster> clusters_;
 };
 
-// The model of a character without rotating joints.
+// The model for a character without rotating joints. It predicts the mean AO.
 class MeanAo final : public PoseRegression {
  public:
   explicit MeanAo(const AoTargets& targets)

@@ -57,7 +57,7 @@ BaselineMatrix draw_centres(const BaselineMatrix& features, Index clusters, std:
 PoseFeatures::PoseFeatures(const SkinnedMesh& mesh, FeatureKind kind) : kind_(kind) {
   for (std::uint32_t bone : posable_joints(mesh)) {
     const std::int32_t parent = mesh.bones[bone].parent;
-    // If there are several roots, the rotation of the other roots is relative to the first.
+    // If there are several root bones, the rotations of the others are measured relative to the first root.
     if (parent >= 0 || bone != 0) joints_.push_back({bone, parent >= 0 ? parent : 0});
   }
 }

@@ -28,8 +28,9 @@ class PoseFeatures {
   Eigen::RowVectorXf of(const bake::Pose& pose) const;
   BaselineMatrix of(std::span<const bake::Pose> poses) const;
 
-  // Returns for each feature the square root of the share of vertices that the feature's joint moves. As a
-  // scale, it makes a rotated finger a smaller change of pose than a rotated hip.
+  // Returns for each feature the square root of the share of vertices that the feature's joint moves. If
+  // features are scaled by it, the rotation of a finger changes the pose less than the same rotation of a
+  // hip.
   Eigen::RowVectorXf moved_share(const bake::SkinnedMesh& mesh) const;
 
  private:

@@ -75,7 +75,7 @@ void DebugOverlay::draw_errors(Renderer& renderer, const PictureOfCrowd& picture
 void DebugOverlay::draw(Renderer& renderer, const PictureOfCrowd& picture, const DebugView& view) {
   if (view.error) draw_errors(renderer, picture, view.bodies);
   if (!view.spheres && !view.key_points && !view.links) return;
-  // The shadows of key points cannot be read from the GPU, so the CPU computes them.
+  // The shadows of key points cannot be read back from the GPU, so they are computed on the CPU.
   if (view.key_points) picture.scene.scene().update();
   shapes_.draw(debug_shapes(picture.scene, view, picture.camera.eye_ws), picture.camera);
 }

@@ -277,8 +277,8 @@ void DebugRenderer::set_view(const platform::Program& program, const View& view,
   gl_.Uniform1f(program.uniform("opacity"), opacity);
 }
 
-// Draws only the depth first, and then the colours of the nearest spheres. Translucent spheres thus hide the
-// spheres behind them.
+// Draws the spheres twice: first only their depth, then the colours of the nearest ones. A translucent sphere
+// thus hides the spheres behind it.
 void DebugRenderer::draw_balls(const std::vector<Ball>& balls, const View& view, float lift_m,
                                float opacity) {
   if (balls.empty()) return;
@@ -313,7 +313,7 @@ void DebugRenderer::draw(const DebugShapes& shapes, const Camera& camera) {
   draw_lines(shapes.normals, view, point_lift_m);
   draw_balls(shapes.key_points, view, point_lift_m, 1);
   draw_balls(shapes.spheres, view, sphere_lift_m, shapes.key_points.empty() ? 0.75f : 0.4f);
-  gl_.Disable(GL_DEPTH_TEST);  // links show through bodies
+  gl_.Disable(GL_DEPTH_TEST);  // links are visible through bodies
   draw_lines(shapes.links, view, 0);
   gl_.Enable(GL_DEPTH_TEST);
   gl_.Disable(GL_BLEND);

@@ -16,10 +16,10 @@ struct DebugView {
   bool spheres = false;     // the proxy spheres of bodies, coloured by bone
   bool key_points = false;  // the key points of bodies with their normals, coloured by their shadow
   bool links = false;       // draws a line from each caster to each body that it darkens
-  bool levels = false;      // bodies in the colours of their levels of detail
-  bool error = false;       // the AO of bodies against ray tracing
-  // The number of bodies that show spheres, key points and errors. The bodies nearest to the camera are
-  // chosen.
+  bool levels = false;      // colours each body by its level of detail
+  bool error = false;       // colours bodies by the error of their AO relative to ray tracing
+  // The number of bodies for which spheres, key points and errors are drawn. These are the bodies nearest to
+  // the camera.
   std::uint32_t bodies = 1;
 };
 

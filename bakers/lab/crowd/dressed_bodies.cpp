@@ -5,8 +5,8 @@
 namespace crowd::lab {
 namespace {
 
-// The colours of clothes and tiles. Clothes go by the place in the rest pose of the built-in character, whose
-// arms hang at 45 degrees.
+// The colours of clothes and tiles. The colour of a point of the clothes depends on the point's position in
+// the rest pose. The code is for the built-in character, whose arms hang at 45 degrees in the rest pose.
 const char* const colours_glsl = R"(
 float above(float value, float edge) {
   float w = max(fwidth(value), 1e-5);
@@ -39,7 +39,7 @@ vec3 tiles(vec2 place_m) {
 }
 )";
 
-// GROUND and GIVEN choose one of four programs.
+// This text has four variants, selected by the macros GROUND and GIVEN.
 const char* const dressed_fragment = R"(
 in vec3 surface_position_ws;
 in vec3 surface_normal_ws;
@@ -126,7 +126,7 @@ glm::mat4 DressedBodies::begin(const Camera& camera, const DressedLook& look) {
   GLint viewport[4];
   gl_.GetIntegerv(GL_VIEWPORT, viewport);
   gl_.Enable(GL_DEPTH_TEST);
-  // Behind everything is the light from the horizon ahead.
+  // The background has the colour of the sky at the horizon in front of the camera.
   glm::vec3 ahead = camera.target_ws - camera.eye_ws;
   ahead = glm::normalize(glm::vec3(ahead.x, 0.4f * glm::length(glm::vec2(ahead.x, ahead.z)), ahead.z));
   background_ = 1.0f - glm::exp(-look.light.exposure * look.light.radiance(ahead));

@@ -1,5 +1,6 @@
-// Draws moving bodies in clothes on a tiled floor, under a sky: without occlusion, with Nook's, or with given
-// irradiance. All three pictures have the same exposure.
+// Draws moving bodies in clothes on a tiled floor, under a sky. There are three kinds of pictures: without
+// occlusion, with Nook's occlusion, and with irradiance that the caller computed. All three have the same
+// exposure.
 #pragma once
 
 #include <span>
@@ -11,20 +12,21 @@ namespace crowd::lab {
 
 struct DressedLook {
   const Light& light;
-  glm::vec2 floor_offset_m{0};  // where the tiles begin: a floor that moves under walkers
+  glm::vec2 floor_offset_m{0};  // offset of the tile pattern, to move the floor under walkers
   float ao_strength = 1;        // 0 draws without occlusion
 };
 
 class DressedBodies {
  public:
-  // parts must outlive this object. lights is the GLSL of the scene's view, which Nook returns.
+  // `parts` must outlive this object. `lights` is the GLSL text with which Nook describes the scene's view.
   DressedBodies(const GladGLContext& gl, Renderer& parts, const char* lights);
 
-  // All pictures go into the bound framebuffer, whose viewport must be set. The instances' albedo is the
-  // colour of the shirt.
+  // All functions below draw into the bound framebuffer. Set the viewport before you call them. The albedo of
+  // an instance is the colour of its shirt.
   void draw(std::span<const DrawnInstance> instances, const Camera& camera, const DressedLook& look,
             GLuint lobes_texture, const ScreenAo& screen_ao);
-  // The instances' light is irradiance, and so is the floor's texture. Outside the texture the floor is open.
+  // Draws with given irradiance. The `light` of each instance and the texture of the floor must hold
+  // irradiance. Outside the texture, the floor is drawn without occlusion.
   void draw_given(std::span<const DrawnInstance> instances, const Camera& camera, const DressedLook& look,
                   const FloorTexture& irradiance);
 

@@ -1,5 +1,5 @@
-// Values that a picture gets from memory: at the vertices of characters, and at the points of a patch of the
-// floor.
+// Uploads values that a picture shows from memory. There are values at the vertices of characters, and at the
+// points of a patch of the floor.
 #pragma once
 
 #include <glad/gl.h>
@@ -13,7 +13,7 @@ namespace crowd::lab {
 
 namespace measure = nook::lab::crowd;
 
-// A vertex buffer that holds the values of all members of a group, one after the other.
+// A vertex buffer that holds the values of all members of a group, one member after the other.
 class VertexBuffer {
  public:
   VertexBuffer(const GladGLContext& gl, const measure::VertexValues& values, std::uint32_t channels)
@@ -32,7 +32,7 @@ class VertexBuffer {
   VertexBuffer(const VertexBuffer&) = delete;
   VertexBuffer& operator=(const VertexBuffer&) = delete;
 
-  // No buffer if there are no values.
+  // If there are no values, returns a source without a buffer.
   VertexSource source(std::size_t member) const {
     return sources_.empty() ? VertexSource{} : sources_[member];
   }
@@ -48,7 +48,8 @@ class FloorImage {
  public:
   FloorImage(const GladGLContext& gl, const measure::FloorValues& floor, std::uint32_t channels) : gl_(gl) {
     const measure::FloorPatch& patch = floor.patch;
-    // The centres of texels lie on the patch's points, so the texture is wider by half a texel on each side.
+    // The centres of the texels lie at the points of the patch, so the texture extends half a texel beyond
+    // the patch on each side.
     const float texel_m = patch.size_m / float(patch.side - 1);
     floor_.first_m = glm::vec2(patch.low_x_m, patch.low_z_m) - 0.5f * texel_m;
     floor_.extent_m = glm::vec2(patch.size_m + texel_m);

@@ -14,8 +14,8 @@ namespace crowd::lab {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-// Height of the environment of a probe, in texels. It resolves the narrowest lobes of a probe with a few
-// dozen lobes.
+// Height in texels of the environment that is computed from a probe. It is high enough for the narrowest
+// lobes of a probe with a few dozen lobes.
 constexpr std::uint32_t probe_height = 128;
 
 struct Map {

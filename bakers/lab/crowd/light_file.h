@@ -24,8 +24,8 @@ struct MapLight {
 };
 
 // Reads a probe file or a latitude-longitude map. For a map, it fits 12 lobes. For a probe, the environment
-// is computed from the lobes. Throws std::runtime_error and nook::Error. The lobes fitted to a map overlap
-// and have both signs, so no single lobe represents the sun.
+// is computed from the lobes. Throws std::runtime_error and nook::Error. Lobes that are fitted to a map
+// overlap, and some are negative. No single lobe therefore represents the sun.
 MapLight read_light(const nook::Context& context, const std::filesystem::path& path);
 
 // Returns a light whose environment is its own lobes.

@@ -95,7 +95,8 @@ std::optional<NamedLight> light_of_frames(const nook::Context& context, const Op
   return NamedLight{std::move(first.name), std::move(first.light)};
 }
 
-// Creates a context of the newest OpenGL, or of OpenGL 3.3, which is sufficient for the crowd.
+// Creates a context with OpenGL 4.x. If this fails, creates a context with OpenGL 3.3, which is sufficient
+// for the crowd.
 std::unique_ptr<platform::Context> create_context(const Options& o) {
   platform::ContextRequest request;
   request.kind = o.context;
@@ -116,7 +117,7 @@ nlohmann::ordered_json draw(const Stage& stage, CrowdScene& scene, const Options
   const FrameTimes ms =
       draw_frames(stage, scene, {o.frames, o.out, light ? &light->light : nullptr, o.record, o.debug},
                   [&](std::uint32_t done) { bar.show("drawing", "frames", done, o.frames); });
-  // The comparisons set their own lights.
+  // Removes the light, because the comparisons set their own lights.
   scene.set_light({});
   nlohmann::ordered_json report = describe(stage.context, scene, o);
   report["links"] = scene.scene().info().links;

@@ -1,5 +1,5 @@
-// nook-lab-motion: draws a few moving bodies three times for each frame: without occlusion, with Nook, and
-// ray traced. docs/animations.py makes the animations of the documents from these pictures.
+// nook-lab-motion: draws each frame of a few moving bodies three times: without occlusion, with Nook, and ray
+// traced. docs/animations.py makes the animations of the documents from these pictures.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
@@ -66,11 +66,12 @@ std::vector<DrawnInstance> dressed(std::vector<DrawnInstance> drawn, const Motio
   return drawn;
 }
 
-// What one shot is drawn with.
+// The objects that are needed to draw one shot.
 struct ShotTarget {
   ShotTarget(platform::Context& context, const nook::Gl& gl, const Shot& from, int width_px)
       : shot(from),
-        // Full resolution, also without a GPU. The floor is a plane, to which taps add nothing.
+        // Uses full resolution even without a GPU. The floor is a plane, and the taps of the screen pass do
+        // not darken a plane.
         passes(context, gl, width_px, height_px(from, width_px), {9, false}),
         target(context, width_px, height_px(from, width_px)) {}
 
@@ -112,7 +113,7 @@ class MotionFrames {
   }
 
  private:
-  // Draws the same values twice: with their occlusion, and without.
+  // Draws the picture with Nook's occlusion and the picture without occlusion.
   void draw_nook(std::uint32_t frame, const std::vector<DrawnInstance>& drawn, DressedLook look,
                  ShotTarget& target) {
     const nook_gl_view view = crowd_.light();
@@ -133,7 +134,7 @@ class MotionFrames {
     const measure::PosedCrowd posed(hero_.character().get(), poses);
     std::vector<std::uint32_t> all(poses.size());
     std::iota(all.begin(), all.end(), 0u);
-    // All frames have the same rays, so that noise does not flicker.
+    // All frames use the same rays, so that the noise does not flicker.
     const measure::TracedIrradiance traced =
         smooth_irradiance(posed, all, scene_.floor, light_.environment(), {options_.rays, 1, true});
     const VertexBuffer irradiance(gl_, traced.bodies, 3);

@@ -9,8 +9,8 @@ namespace {
 
 const glm::vec3 brick(0.58f, 0.25f, 0.17f), sand(0.64f, 0.55f, 0.40f), sage(0.36f, 0.47f, 0.33f);
 
-// The clip Walk of the built-in character is made for a floor that moves by 0.9 m in each cycle, which is two
-// of the floor's tiles.
+// In the clip Walk of the built-in character, the body walks in place. The floor must move by 0.9 m in each
+// cycle of the clip. This is the width of two floor tiles.
 constexpr float walk_m = 0.9f;
 
 MotionScene walk() {

@@ -1,4 +1,5 @@
-// The scenes of nook-lab-motion: who moves where, by which clip, and from where the camera looks.
+// The scenes of nook-lab-motion. A scene says which bodies move, where they stand, which clips they play, and
+// where the camera is.
 #pragma once
 
 #include <string>
@@ -14,29 +15,30 @@ namespace crowd::lab {
 struct Mover {
   std::string clip;
   float x_m = 0, z_m = 0, yaw_rad = 0;
-  float phase = 0;  // from 0 to 1, in the first frame
-  int cycles = 1;   // of the clip, in one loop of the animation
+  float phase = 0;  // position in the clip in the first frame, from 0 to 1
+  int cycles = 1;   // number of cycles of the clip in one loop of the animation
   glm::vec3 shirt{0.6f};
 };
 
-// One picture of each frame.
+// A camera that draws one picture of each frame.
 struct Shot {
   std::string name;
   Camera camera;
-  float height = 1;  // in widths of the picture
+  float height = 1;  // height of the picture divided by its width
 };
 
 struct MotionScene {
   std::vector<Mover> movers;
   std::vector<Shot> shots;
-  glm::vec2 floor_travel_m{0};         // the way of the floor under the movers in one loop
-  nook::lab::crowd::FloorPatch floor;  // where the floor is traced
+  glm::vec2 floor_travel_m{0};  // how far the floor moves under the bodies in one loop of the animation
+  nook::lab::crowd::FloorPatch floor;  // the part of the floor whose light is ray traced
 };
 
 std::vector<std::string> motion_scene_names();
 MotionScene motion_scene(std::string_view name);
 
-// The poses at a part of the loop, from 0 to 1. Throws std::runtime_error if the hero has no such clip.
+// Returns the poses at the time `part` of the loop, from 0 to 1. Throws std::runtime_error if the hero does
+// not have a clip that the scene names.
 std::vector<Bones> poses_of(const Hero& hero, const MotionScene& scene, float part);
 
 }  // namespace crowd::lab

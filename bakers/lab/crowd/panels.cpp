@@ -14,7 +14,8 @@ namespace {
 
 namespace measure = nook::lab::crowd;
 
-// Shows the given irradiance, from vertices or from a texture on the ground. Bright parts are compressed.
+// Shows given irradiance, which is read from the vertices or from a texture on the ground. Bright values are
+// compressed.
 const char* const given_light_fragment = R"(#version 330 core
 in vec3 surface_position_ws;
 in vec3 surface_albedo;

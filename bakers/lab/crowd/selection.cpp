@@ -12,7 +12,7 @@ constexpr float near_m = 1.0f;
 
 constexpr float group_distance_m = 4.6f;  // from the camera to the group
 constexpr int bearings = 24;              // number of directions that the camera may look from
-constexpr float body_reach_m = 1.2f;      // from a character's root to the fingers and toes
+constexpr float body_reach_m = 1.2f;      // distance from a character's root to its fingers and toes
 
 float squared_distance(const Place& a, const Place& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
@@ -74,7 +74,8 @@ std::uint32_t busiest(std::span<const Place> places, float distance_m) {
     float score = 0;
     for (const Place& other : places)
       if (squared_distance(places[i], other) <= distance_m * distance_m) score += 1;
-    // This penalty is smaller than the score of one neighbour, so it only decides between equal scores.
+    // Prefers places near the origin. The penalty is smaller than the score of one neighbour, so it only
+    // decides between places with equally many neighbours.
     score -= 0.5f * std::min(1.0f, std::hypot(places[i].x, places[i].y) / 100);
     if (score > best_score) {
       best_score = score;

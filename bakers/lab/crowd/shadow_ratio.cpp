@@ -13,11 +13,11 @@ using namespace nook::lab::crowd;
 constexpr float pi = std::numbers::pi_v<float>;
 
 struct Beam {
-  glm::vec3 direction, irradiance;  // of a surface that faces the direction
+  glm::vec3 direction, irradiance;  // irradiance of a surface that faces the direction
 };
 
-// Returns the light of the environment from few enough directions to sum it up at each vertex. A direction
-// stands for `block` x `block` texels.
+// Reduces the environment to few directions, so that its light can be summed at each vertex. Each direction
+// represents `block` x `block` texels.
 std::vector<Beam> beams_of(const nook_bake_environment& map) {
   constexpr std::uint32_t block = 4;
   std::vector<Beam> beams;
@@ -51,7 +51,8 @@ glm::vec3 open_irradiance(const std::vector<Beam>& beams, const glm::vec3& norma
   return sum;
 }
 
-// The normals of the points in the order of traced_irradiance: receivers, then the patch.
+// Returns the normals of the points in the order that traced_irradiance uses: first the vertices of the
+// receivers, then the points of the patch.
 std::vector<float> normals_of(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers,
                               const FloorPatch& patch) {
   std::vector<float> normals;
@@ -63,7 +64,8 @@ std::vector<float> normals_of(const PosedCrowd& crowd, std::span<const std::uint
   return normals;
 }
 
-// The irradiance of points without anything around them. Rays depend on a point's number and normal alone.
+// Returns the irradiance of the points without any occluder. The rays of a point depend only on its index and
+// its normal, so they are the same rays as with bodies.
 std::vector<float> traced_without_bodies(const std::vector<float>& normals,
                                          const nook_bake_environment& environment,
                                          const TraceSettings& settings) {
@@ -82,7 +84,8 @@ std::vector<float> traced_without_bodies(const std::vector<float>& normals,
   return irradiance;
 }
 
-// Averages three channels over each vertex and the vertices that share a triangle with it.
+// Replaces the three channels of each vertex by the mean over the vertex and all vertices that share a
+// triangle with it.
 void average_over_edges(std::vector<float>& values, const std::vector<std::uint32_t>& triangles) {
   std::vector<float> sums = values, counts(values.size() / 3, 1.0f);
   for (std::size_t t = 0; t < triangles.size(); t += 3)
@@ -94,7 +97,8 @@ void average_over_edges(std::vector<float>& values, const std::vector<std::uint3
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = sums[i] / counts[i / 3];
 }
 
-// Averages three channels over a row or a column of the square with binomial weights: 1, 4, 6, 4, 1.
+// Smooths the three channels along the rows or the columns of the square, with the binomial weights 1, 4, 6,
+// 4, 1.
 void average_along(std::vector<float>& values, int side, int step, int other_step) {
   constexpr float weights[5] = {1 / 16.0f, 4 / 16.0f, 6 / 16.0f, 4 / 16.0f, 1 / 16.0f};
   const std::vector<float> before = values;
@@ -109,7 +113,7 @@ void average_along(std::vector<float>& values, int side, int step, int other_ste
       }
 }
 
-// Divides by the irradiance that the same rays find without bodies.
+// Divides the irradiance by the irradiance that the same rays find without bodies.
 void divide(std::vector<float>& irradiance, const float* without) {
   for (std::size_t i = 0; i < irradiance.size(); ++i) irradiance[i] /= std::max(without[i], 1e-6f);
 }
@@ -141,7 +145,7 @@ TracedIrradiance smooth_irradiance(const PosedCrowd& crowd, std::span<const std:
   const int side = int(patch.side);
   average_along(traced.floor, side, 1, side);
   average_along(traced.floor, side, side, 1);
-  // All points of the floor have one normal.
+  // All points of the floor have the same normal.
   const glm::vec3 open = open_irradiance(beams, {0, 1, 0});
   for (std::size_t i = 0; i < traced.floor.size(); ++i) traced.floor[i] *= open[int(i % 3)];
   return traced;

@@ -102,8 +102,8 @@ std::vector<float> read(const GladGLContext& gl, const ScreenPasses& passes, GLu
   return values;
 }
 
-// Returns the description of the last frame of the world pass, with AO instead of light. The light may no
-// longer exist.
+// Returns the descriptor of the last frame of the world pass, changed to compute AO instead of light, because
+// the light may no longer exist.
 nook_world_frame_desc last_frame(const ScreenPasses& passes) {
   nook_world_frame_desc frame = passes.world_frame;
   frame.lobes = nullptr;

@@ -49,11 +49,11 @@ class PosedCrowd {
 struct TraceSettings {
   std::uint32_t rays = 64;  // per vertex
   std::uint64_t seed = 1;
-  bool ground = true;  // whether the ground plane y = 0 occludes
+  bool ground = true;  // true if the ground plane y = 0 occludes
 };
 
-// Returns the AO of the receivers' vertices. All bodies near a receiver occlude it. The ground occludes it if
-// the settings say so.
+// Returns the AO of the receivers' vertices. All bodies near a receiver occlude it. The ground also occludes
+// it if settings.ground is true.
 VertexValues traced_ao(const PosedCrowd& crowd, std::span<const std::uint32_t> receivers,
                        const TraceSettings& settings);
 
@@ -68,8 +68,9 @@ struct FloorPatch {
 std::vector<float> traced_floor_ao(const PosedCrowd& crowd, std::span<const std::uint32_t> casters,
                                    const FloorPatch& patch, float radius_m, const TraceSettings& settings);
 
-// Irradiance, three floats per point. All bodies and the ground are black. The irradiance is therefore the
-// part of the environment's light that is not occluded, without light from surfaces.
+// Irradiance, three floats per point. All bodies and the ground are treated as black. The irradiance is
+// therefore only the part of the environment's light that is not occluded. It does not include light from
+// surfaces.
 struct TracedIrradiance {
   VertexValues bodies;
   std::vector<float> floor;
@@ -86,7 +87,7 @@ struct Errors {
   double mse = 0;  // mean over vertices
   // Only for AO: the mean over vertices whose reference AO is at least visible_truth, or 0 if there are none.
   double mse_visible = 0;
-  double mse_area = 0;  // weighted by each vertex's area on the posed surface
+  double mse_area = 0;  // like mse, but weighted by each vertex's area on the posed surface
 };
 
 // Returns the errors over all receivers. Each vertex has `channels` values; one channel means AO. Errors are

@@ -10,7 +10,7 @@ Loop tiles(const char* over, bool runs) {
   return {over, runs ? trips::tiles : 0, {{"spheres of a tile", trips::spheres_in_tile, {}}}};
 }
 
-// The shader contains both ways to add casters. `composed` selects one of them.
+// The shader contains the loops of both ways to add casters. `composed` selects the way that is counted.
 std::vector<Loop> shadow_loops(bool composed) {
   return {tiles("tiles of own spheres", true),
           {"casters",
@@ -23,7 +23,7 @@ Loop lobes(const char* over, bool runs) {
   return {over, runs ? trips::light_lobes : 0, {}};
 }
 
-// The one exact sphere is the ground.
+// The only exact sphere is the ground.
 std::vector<Loop> colour_loops(bool composed) {
   return {
       tiles("tiles of own spheres", true),
@@ -63,7 +63,8 @@ std::vector<ShaderCase> character_shaders() {
       {{"bones of a thread", trips::bones_of_thread, {{"turns of an uneven bone", 0, {}}}}});
   add(Stage::compute, "pose_place.comp", "", "",
       {{"rows of a thread", trips::rows_of_bone * trips::bones_of_thread, {}}});
-  // A mix of two frames is close to a rotation, so that the general projection does not run.
+  // A mix of two frames is close to a rotation. The general projection to a rotation is therefore not needed
+  // and not counted.
   add(Stage::compute, "clip_bones.comp", "", "",
       {{"weights of a thread", trips::pose_modes / trips::group_size, {}},
        {"bones of a thread",
@@ -81,7 +82,7 @@ std::vector<ShaderCase> character_shaders() {
     }
   add(Stage::compute, "spread.comp");
   add(Stage::compute, "colours_spread.comp");
-  const std::string outputs[] = {"", ", light", ", grey among lit ones"};  // by NOOK_OUTPUT
+  const std::string outputs[] = {"", ", light", ", grey among lit ones"};  // indexed by NOOK_OUTPUT
   for (int output = 0; output < 3; ++output)
     add(Stage::compute, "vertices.comp", outputs[output], define("NOOK_OUTPUT", output),
         {{"pairs of influences", trips::influence_pairs, {}}});

@@ -1,5 +1,5 @@
-// Counts all shaders and passes of a source tree, or reads the counts of an earlier run from its file. Prints
-// the table, and compares two reports.
+// Counts all shaders and passes of a source tree, or reads the counts of an earlier run from a report file.
+// Prints the table, and compares two reports.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -95,7 +95,7 @@ int arithmetic_cycles(const std::vector<Block>& blocks, Span span) {
   return cycles;
 }
 
-// Finds large regions without a loop that a wave skips if none of its threads enters them.
+// Finds large regions that do not contain a loop and that a wave skips if none of its threads enters them.
 std::vector<Span> find_branches(const std::vector<Block>& blocks, const std::vector<Span>& loops) {
   const std::map<std::string, std::size_t> place = places_of(blocks);
   std::vector<Span> spans;

@@ -1,6 +1,6 @@
 // Counts the instructions that a wave executes, from a disassembly. The instructions of a loop are multiplied
-// by its trip count. Both sides of a branch are counted. Large branches can be multiplied by the share of
-// threads that take them.
+// by its trip count. Both sides of a branch are counted. The instructions of large branches can be multiplied
+// by the share of threads that take the branch.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ enum class InstructionClass {
   quarter_rate,  // transcendental functions and multiplication of 32-bit integers
   fetch,         // textures and buffers
   store,
-  local_memory,  // memory that a thread group shares
+  local_memory,  // memory that the threads of a group share
   scalar,
   scalar_load,
   other,  // branches, waiting, exports
@@ -31,11 +31,11 @@ struct InstructionCounts {
   double operator[](InstructionClass c) const { return number[std::size_t(c)]; }
 };
 
-// A loop of the source that must also exist in the disassembly, with its inner loops in the order of the
-// text. An entry can also be a branch. If one entry is a branch, you must list every branch without a loop
-// that threads may skip and that has at least least_branch_cycles.
+// A loop of the source that must also exist in the disassembly. `inside` lists its inner loops in the order
+// of the text. An entry can also be a branch. If you list one branch, you must also list all other branches
+// that threads may skip, that contain no loop, and that have at least least_branch_cycles cycles.
 struct Loop {
-  const char* over;  // what the loop runs over, or what takes the branch
+  const char* over;  // what the loop iterates over, or which threads take the branch
   double trips = 0;  // trip count; for a branch, the share of threads that take it
   std::vector<Loop> inside;
   bool is_branch = false;
@@ -46,7 +46,8 @@ inline constexpr int least_branch_cycles = 90;  // cycles of arithmetic
 // compiler unrolls a loop. The message shows both.
 InstructionCounts count_instructions(const std::string& disassembly, const std::vector<Loop>& expected);
 
-// Returns the loops of a disassembly as text, each with its first block and the instructions of one trip.
+// Returns the loops of a disassembly as text. Each loop is shown with the name of its first block and the
+// instruction counts of one iteration.
 std::string describe_loops(const std::string& disassembly);
 
 }  // namespace nook::lab

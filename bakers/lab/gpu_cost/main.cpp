@@ -33,8 +33,8 @@ struct Options {
   double limit = 1e9;
 };
 
-// OpenGL ES 3.0 has no texture buffers. A 2D texture replaces them, and its rows are read one after the
-// other.
+// OpenGL ES 3.0 has no texture buffers. A 2D texture replaces each texture buffer. Its rows hold the elements
+// of the buffer one after the other.
 constexpr char texture_rows[] =
     "#define samplerBuffer sampler2D\n"
     "vec4 texelFetch(sampler2D rows, int i) { return texelFetch(rows, ivec2(i & 2047, i >> 11), 0); }\n";
@@ -120,7 +120,8 @@ int compare_two(const Options& options) {
   if (fail_for(after) != exit_done) return exit_failed;
   print_names(("above " + std::to_string(options.limit) + " times the old cycles").c_str(),
               comparison.above_limit);
-  // A stored report must list the same shaders as the tree. Two trees may have different shaders.
+  // If `before` is a stored report, it must list the same shaders as the tree. If `before` is a tree, it may
+  // have different shaders.
   const bool of_a_report = !fs::is_directory(options.before) && options.only.empty();
   if (of_a_report) print_names("only in one of the two", comparison.unmatched);
   if (comparison.above_limit.empty() && (!of_a_report || comparison.unmatched.empty())) return exit_done;
@@ -132,8 +133,8 @@ int compare_two(const Options& options) {
   return exit_failed;
 }
 
-// Called if RADV is missing, so that nothing can be counted. This is a failure only if NOOK_REQUIRE_RADV=1 is
-// set.
+// Called if RADV is missing, because then nothing can be counted. This is treated as a failure only if
+// NOOK_REQUIRE_RADV=1 is set.
 int without_radv(const char* what) {
   const char* required = std::getenv("NOOK_REQUIRE_RADV");
   if (required && std::string(required) == "1") {

@@ -8,7 +8,7 @@
 namespace nook::lab {
 
 std::string material_declarations(const material::MaterialTables& tables, std::string_view host) {
-  constexpr std::uint32_t max_layers = 2048;  // layers of a texture array that OpenGL 4.5 guarantees
+  constexpr std::uint32_t max_layers = 2048;  // the number of texture array layers that OpenGL 4.5 guarantees
   const String source = gl::material_source(tables, max_layers, default_memory());
   std::string_view text(source.data(), source.size());
   for (const gl::EmbeddedShader* shader = gl::embedded_shaders_begin(); shader != gl::embedded_shaders_end();
@@ -19,17 +19,19 @@ std::string material_declarations(const material::MaterialTables& tables, std::s
 
 namespace {
 
-// Cells along each side of the view maps that a bake with K-CTA makes.
+// Number of cells along each side of the view maps that a bake with K-CTA makes.
 constexpr std::uint32_t file_map_side = 64;
 
 struct Size {
   const char* name;
   std::uint32_t light_modes, view_vec4s, clusters, terms, texels;
   std::uint32_t votf_view_vec4s, votf_clusters, votf_terms;
-  // The decoding loop that is not unrolled. The second value is for vega10, if it differs there.
+  // The decoding loop, if the compiler does not unroll it. The second value is used for vega10 if it differs
+  // there.
   std::optional<Loop> loop, loop_on_vega10;
   bool has_relief = false;
-  std::uint32_t packed_modes = 0;  // light modes in compressed blocks; if not 0, the VOTF is compressed too
+  std::uint32_t packed_modes =
+      0;  // number of light modes in compressed texture blocks; if not 0, the VOTF is compressed too
 };
 // The sizes of fiber and roughhole at the paper's ranks, as in docs/lab/material_decoding.md, and of weave.
 const Size sizes[] = {
@@ -105,8 +107,8 @@ void main() {
 }
 )";
 
-// This shader lights the material with ten lights. Four are lights, and six are the lobes of a probe. Each
-// lobe is treated as a light along its axis.
+// This shader lights the material with ten lights. Four are real lights, and six are the lobes of a probe.
+// Each lobe is treated as a light along the lobe's axis.
 constexpr char ten_lights[] = R"(#include "shaders/material/host.glsl"
 in vec2 uv;
 in vec3 view;

@@ -123,8 +123,8 @@ void main() {
 
 constexpr int layers = 3;
 
-// For weave in docs/lab/materials.md, 22 channels take as many bytes as K-CTA. The number is rounded up to
-// whole vectors here.
+// With 22 channels, the material `weave` in docs/lab/materials.md takes as many bytes as with K-CTA. Here,
+// the number is rounded up to whole vectors.
 std::string defines() {
   constexpr int channels = 24, view_side = 7, units = 32, offset_channels = 8, offset_units = 16;
   std::string text;

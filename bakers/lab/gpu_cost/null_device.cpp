@@ -11,7 +11,7 @@
 namespace nook::lab {
 namespace {
 
-// How many bindings a shader can have for storage blocks and images.
+// The maximum numbers of storage blocks and images that a shader can bind.
 constexpr std::size_t storage_blocks = 16, images = 5;
 constexpr std::uint32_t wave_lanes = 64;
 

@@ -1,5 +1,5 @@
-// Compiles shaders for a GPU that this machine does not have. RADV, Mesa's Vulkan driver for AMD, compiles
-// for it and returns the disassembly.
+// Compiles shaders for a GPU that this machine does not have. RADV, Mesa's Vulkan driver for AMD, can compile
+// for such a GPU and return the disassembly.
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,8 @@
 namespace nook::lab {
 namespace {
 
-// The share of threads if each thread computes 2 x 2 pixels, or if the image has half the width and height.
+// The number of threads divided by the number of pixels, if each thread computes 2 x 2 pixels, or if the
+// image has half the width and height.
 constexpr double quarter = 0.25;
 
 // With nine taps, the filter along x does not compare AO values.

@@ -1,5 +1,5 @@
-// Lists every shader that Nook ships and every baseline, with defines and with the loops that the compiled
-// shader has.
+// Lists every shader that Nook ships and every baseline. Each entry has the shader's defines and the loops
+// that the compiled shader contains.
 #pragma once
 
 #include <string>
@@ -42,11 +42,11 @@ ShaderCase tree_shader(Stage stage, const std::string& path, const std::string& 
 // Returns the case of a host's fragment shader.
 ShaderCase host_shader(const std::string& text, const std::string& name, const std::vector<Loop>& loops = {});
 
-// Returns the library's shader text of a material, up to the file `host`. `host` is the last file of the
-// text, relative to shaders/, such as material/host.glsl. A counted shader includes this file from the
-// counted tree.
+// Returns the beginning of the library's shader text for a material, without the last file of this text.
+// `host` is the path of this last file relative to shaders/, such as material/host.glsl. The counted shader
+// includes `host` from the source tree that is counted.
 std::string material_declarations(const material::MaterialTables& tables, std::string_view host);
-// Put this before the text of a material's pixel, to make it fetch each mode at two places along the pixel.
+// Put this text in front of a material shader, so that it fetches each mode at two places along the pixel.
 inline constexpr char two_fetches[] = "#define TWO_FETCHES\n";
 
 // A pass: shaders that run one after the other, each for a share of the threads.

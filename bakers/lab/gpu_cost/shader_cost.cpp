@@ -13,7 +13,7 @@ std::string located(const char* direction, std::size_t location, const StageVari
 }
 
 // Returns a vertex shader that passes its attributes to the inputs of a fragment shader. If there are no
-// inputs, the vertex shader covers the screen.
+// inputs, the vertex shader draws a triangle that covers the screen.
 std::string vertex_partner(const std::vector<StageVariable>& inputs) {
   std::string text = "#version 450\n", body;
   for (std::size_t i = 0; i < inputs.size(); ++i) {

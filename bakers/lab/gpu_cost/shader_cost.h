@@ -12,7 +12,7 @@
 
 namespace nook::lab {
 
-// The cost model counts cycles of a compute unit with 64 lanes that runs a wave of 64 threads.
+// The cost model counts the cycles of a compute unit with 64 lanes that executes a wave of 64 threads.
 inline constexpr double quarter_rate_cycles = 4, fetch_cycles = 16;
 
 struct Cycles {

@@ -3,12 +3,12 @@
 
 namespace nook::lab::trips {
 
-// Characters: the benchmark's body, in the middle of a crowd.
+// Characters: the body of the benchmark, in the middle of a crowd.
 inline constexpr int group_size = 64;  // threads of a group, and spheres that it loads at a time
 inline constexpr double spheres = 130;
 inline constexpr double bones_of_thread = 65.0 / group_size;
 inline constexpr double rows_of_bone = 3;
-inline constexpr double pose_modes = 40;  // of clips
+inline constexpr double pose_modes = 40;  // number of pose modes of baked clips
 inline constexpr double steps_to_rotation = 3;
 inline constexpr double tiles = 3;  // tiles of group_size spheres, the last one partly filled
 inline constexpr double spheres_in_tile = spheres / tiles;
@@ -21,7 +21,7 @@ inline constexpr double light_lobes = 12;  // in an instance's light
 inline constexpr double sides = 2;
 
 // The world pass, per texel, in the crowd sample with 100 characters at 1920 x 1080. The values are from the
-// sample's report. The list of a tile has all bodies whose range of influence covers the tile.
+// sample's report. The list of a tile contains all bodies whose range of influence overlaps the tile.
 inline constexpr double bodies_of_tile = 100;
 inline constexpr double parts_of_body = 0.08;
 inline constexpr double casters_of_part = 0.2;
@@ -29,20 +29,21 @@ inline constexpr double casters_of_part = 0.2;
 // evaluates a larger share of each list.
 inline constexpr double near_bodies_of_tile = 9;
 inline constexpr double parts_of_near_body = 0.6;
-// The world pass with thread groups. A group reads `bodies_read` bodies of a list at a time and keeps some of
-// them. The values are from `world_counts` of the report: tests, capsules of limbs and casters divided by the
-// tests, and far_tests.
+// The world pass with thread groups. A group reads `bodies_read` bodies of a list at a time, and keeps those
+// that affect its pixels. The values are from `world_counts` in the sample's report. They are `tests`, the
+// counts for limb capsules and casters divided by `tests`, and `far_tests`.
 inline constexpr int bodies_read = 32;
 inline constexpr double near_bodies_of_group = 1.01;
 inline constexpr double parts_of_group_body = 5.56;
 inline constexpr double casters_of_group_part = 0.195;
 inline constexpr double far_bodies_of_group = 26.8;
-// Shares of threads for three branches: parts that are merged into one capsule, far bodies in range, and
-// surfaces without a normal.
+// Shares of threads that take three branches: for parts that are merged into one capsule, for far bodies in
+// range, and for surfaces without a normal.
 inline constexpr double merged_parts = 0.96;
 inline constexpr double far_bodies_in_reach = 0.91;
 inline constexpr double no_normal = 0;
-// Of the pixels between characters, the share that has no texel of far bodies on the same surface.
+// Among the pixels between characters, the share for which no texel of the far bodies' image lies on the same
+// surface.
 inline constexpr double alone = 0.004;
 
 // For pixels without a normal from the host: the mean number of steps along an axis to the next surface, if

@@ -11,9 +11,9 @@ namespace nook::lab {
 namespace {
 
 constexpr int max_calls = 1000;  // per batch
-// Before each batch, other work keeps the GPU busy for this long, so that the CPU thread runs ahead of the
-// GPU. The GPU then does not wait for calls between the two timestamps. If the CPU needs longer than this for
-// a batch, the waits are included in the time.
+// Before each batch, other work keeps the GPU busy for this long. In this time, the CPU submits the calls of
+// the batch. The GPU therefore does not wait for calls between the two timestamps. If the CPU needs longer
+// than this to submit a batch, the measured time includes the waits.
 constexpr double busy_ms = 8;
 constexpr int busy_side = 64, max_busy_loops = 1 << 20;
 

@@ -35,8 +35,8 @@ struct Timing {
 // radius is 0.5 metres.
 std::vector<TimedRow> time_screen(const Timing& timing);
 
-// Times nook_gl_scene_update for crowds on the ground with changing poses. Bodies have no linked neighbours
-// or four. `model` is a file for nook_model_load.
+// Times nook_gl_scene_update for crowds on the ground with changing poses. Crowds are timed without linked
+// neighbours and with four linked neighbours per body. `model` is a file for nook_model_load.
 std::vector<TimedRow> time_characters(const Timing& timing, const std::filesystem::path& model);
 
 // Times the world pass while 100 bodies darken the floor on which they stand.

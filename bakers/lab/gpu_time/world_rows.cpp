@@ -56,7 +56,7 @@ class WorldPass {
 
 std::vector<TimedRow> time_world(const Timing& timing, const std::filesystem::path& model) {
   std::vector<TimedRow> rows;
-  // The camera stands behind the last row of the crowd and looks over the heads of the others.
+  // The camera stands behind the last row of the crowd and looks over the heads of the bodies.
   const Camera camera = look_at({0, 2.5f, 11}, {0, 0.5f, 0}, 0, std::numbers::pi_v<float> / 3,
                                 std::uint32_t(timing.width), std::uint32_t(timing.height));
   const GpuView view(timing.context.gl(), floor_view(camera));

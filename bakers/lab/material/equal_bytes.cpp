@@ -77,9 +77,9 @@ using tensor::Matrix;
 using DataMap = Eigen::Map<const Matrix>;
 
 constexpr std::size_t block = 512;  // rows
-// The number of subspace iterations. Each iteration reduces the error of the last components, by a factor
-// that depends on the ratio of neighbouring singular values. With more iterations, the S/E changes by less
-// than 0.01 dB on the built-in materials.
+// The number of subspace iterations. Each iteration reduces the error of the last components. The factor
+// depends on the ratio of neighbouring singular values. On the built-in materials, more iterations change the
+// signal-to-error ratio (S/E) by less than 0.01 dB.
 constexpr int iterations = 6;
 
 // Returns A B, computed in blocks of rows of A.

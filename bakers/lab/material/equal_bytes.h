@@ -1,5 +1,5 @@
-// Fits methods to the size of whole material files, because users ship whole files. View maps, directions and
-// headers are therefore counted.
+// Chooses the parameters of methods so that their results have the size of a given material file. The size of
+// the whole file counts, because users ship whole files. It includes view maps, directions and headers.
 #pragma once
 
 #include <cstddef>
@@ -12,18 +12,19 @@
 namespace nook::lab {
 
 // Returns the size of the material's file in bytes. If a tensor does not have a view map, adds the size of a
-// map with `map_side` cells per side (0: adds nothing). Materials can thus be compared without resampling.
+// map with `map_side` cells per side (0: adds nothing). Sizes can thus be compared without computing the
+// missing view maps.
 std::size_t whole_file_bytes(const nook::material::Material& material, std::uint32_t map_side);
 
 // Returns the size of a material's file without its BTF, in bytes: header, directions, VOTF and recipe.
 std::size_t bytes_beside_btf(std::span<const std::byte> file);
 
-// Returns the largest view rank at which the file of an N-SVD without a recipe has at most `max_bytes`. The
-// other ranks are from the settings. Returns 0 if even rank 1 needs more bytes.
+// Returns the largest view rank with which the file of an N-SVD has at most `max_bytes`, without a recipe.
+// The other ranks come from the settings. Returns 0 if the file is larger even with rank 1.
 std::uint32_t n_svd_view_rank(const bake::material::RawMaterial& raw,
                               const bake::material::CompressionSettings& settings, std::size_t max_bytes);
 
-// A fit by principal components of texels, the linear method.
+// The result of a fit with principal components of texels, which is the linear method.
 struct PcaResult {
   std::size_t components = 0;
   std::size_t bytes = 0;  // components x (3 lights views + texels) half floats

@@ -35,9 +35,9 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-// Returns the view rank at which an N-SVD with integer values takes at most as many bytes as a file. The size
-// depends on the values, so the function tries several ranks. The first guess is proportional to the size of
-// a trial.
+// Returns the view rank with which an N-SVD with integer values takes at most as many bytes as a given file.
+// The size depends on the values, so the function tries several ranks. The first guess is extrapolated from
+// the size of one trial fit.
 std::uint32_t filling_view_rank_of_integers(const RawMaterial& raw, CompressionSettings s,
                                             std::size_t file_bytes, const StageProgress& progress) {
   s.method = Method::n_svd;
@@ -52,8 +52,8 @@ std::uint32_t filling_view_rank_of_integers(const RawMaterial& raw, CompressionS
   return s.rank_view;
 }
 
-// Returns the view rank at which an N-SVD, including its recipe, takes as many bytes as a file. The largest
-// rank has the longest recipe.
+// Returns the view rank with which an N-SVD takes as many bytes as a given file. The recipe is counted as
+// well. Its length is taken from the largest rank, which has the longest recipe.
 std::uint32_t filling_view_rank(const RawMaterial& raw, CompressionSettings s, std::size_t file_bytes) {
   s.method = Method::n_svd;
   s.rank_view = std::uint32_t(raw.views.size());
@@ -77,7 +77,8 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
                          Material* material) {
   const std::uint32_t map_side = settings.made_map_side();
   const nlohmann::ordered_json recipe = describe(settings);
-  // Rows of half floats have the same size with any values.
+  // Rows of half floats have the same size whatever their values are, so no view map must be computed to
+  // count them.
   if (!material && settings.bits == 16) settings.map_side = 0;
   const platform::Stopwatch watch;
   Material whole = compress(raw, settings, progress);

@@ -20,8 +20,8 @@ using measure::MaterialFile;
 using measure::MethodProgress;
 
 // Compresses the raw material and measures the error after rounding. If `material` is not null, it receives
-// the result, with the VOTF of settings.visibility and with view maps. Otherwise, VOTF and view maps are only
-// counted in the size.
+// the compressed material, with a VOTF in the form settings.visibility and with view maps. If it is null,
+// view maps are not always computed. Their size and the size of the VOTF are counted in any case.
 MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings,
                          const bake::material::StageProgress& progress = {},
                          nook::material::Material* material = nullptr);
@@ -31,13 +31,15 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings,
 MethodRow measure_pca(const RawMaterial& raw, std::span<const std::byte> file, std::uint64_t seed);
 
 // Fits the maps of a physically based material with parallax to the raw material. If `unseen` is not null,
-// measures them there. Relief shadows need a ray march for each light.
+// also measures the maps on this raw material. Set has_shadows to draw relief shadows, which need a ray march
+// for each light.
 MethodRow measure_pbr(const RawMaterial& raw, const RawMaterial* unseen, bool has_shadows);
 
 // The size of a neural material that is fitted to the same tile.
 enum class NeuralSize {
-  small,   // about 14 bytes per texel
-  filling  // the bytes of a whole file; VOTF and directions are kept as in measure_pca
+  small,   // takes about 14 bytes per texel
+  filling  // takes as many bytes as a whole file; as in measure_pca, VOTF and directions of the file are kept
+           // and counted
 };
 MethodRow measure_neural(const RawMaterial& raw, const RawMaterial* unseen, std::span<const std::byte> file,
                          NeuralSize size, std::uint64_t seed,
@@ -66,8 +68,8 @@ struct BaselineRequest {
 nlohmann::ordered_json material_baseline_rows(const RawMaterial& raw, const MaterialFile& file,
                                               std::uint64_t seed, const BaselineRequest& request);
 
-// Returns rows for CTA and for K-CTA with K = 3. Each has one row with initial clusters by directions, and
-// one with initial clusters by values.
+// Returns two rows for CTA and two rows for K-CTA with K = 3. In the first row of each, the initial clusters
+// are chosen by directions, and in the second by values.
 nlohmann::ordered_json seeding_rows(const RawMaterial& raw, const CompressionSettings& settings,
                                     const MethodProgress& progress);
 

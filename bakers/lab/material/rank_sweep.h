@@ -36,7 +36,7 @@ struct Sweep {
     bake::material::Method method;
     std::uint32_t mixture;
     std::vector<bake::material::MethodRow>
-        rows;  // one per rank; ranks with fewer clusters than the mixture needs are left out
+        rows;  // one row per rank; ranks that give fewer clusters than the mixture needs are left out
     std::vector<std::uint32_t> ranks;
   };
   std::vector<Series> series;  // N-SVD, CTA, K-CTA with K = 2, 3, 4
@@ -48,13 +48,13 @@ Sweep measure_sweep(const bake::material::RawMaterial& raw,
                     const bake::material::CompressionSettings& settings, std::span<const std::uint32_t> ranks,
                     const measure::MethodProgress& progress);
 
-// Returns the charts of S/E, of the error texels of distances, and of both VOTF forms by K-CTA with K = 3 and
-// N-SVD.
+// Returns three charts. They show the signal-to-error ratio (S/E), the error texels of VOTFs in the distance
+// form, and both VOTF forms for N-SVD and for K-CTA with K = 3.
 std::vector<Chart> sweep_charts(const Sweep& sweep, const std::string& material);
 nlohmann::ordered_json sweep_rows(const Sweep& sweep, const std::string& material);
 
-// Returns the smallest rank from which N-SVD with distances has at most as many error texels as with binary
-// masks. Returns 0 if there is none.
+// Returns the smallest rank from which on N-SVD of distances has at most as many error texels as N-SVD of
+// binary masks. Returns 0 if there is no such rank.
 std::uint32_t crossing_rank(const Sweep::Series& series);
 
 }  // namespace nook::lab

@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Bakes the fox badly and well, and writes docs/faults.png: faults of a bake beside their cure.
+"""Bakes the fox with bad and with good settings, and writes docs/faults.png. The picture shows faults of
+a bake beside their cure.
 
     bakers/lab/tables/fault_picture.py --nook build/bakers/tool/nook --keep FOLDER fox_CC-BY.glb
 
-The panels show one pose from the front: ray traced, and then AO above and error below of each bake. Models
-and pictures stay in FOLDER, and what is there already is not made again. Needs python3-pil and fonts-dejavu-core
-of Debian.
+All panels show the same pose from the front. The first panel is ray traced. Each bake then has two panels,
+its AO above and its error below. Models and pictures are kept in FOLDER. Files that already exist there are
+not made again. The script needs python3-pil and fonts-dejavu-core of Debian.
 """
 import argparse
 import json
@@ -16,21 +17,22 @@ from PIL import Image, ImageDraw, ImageFont
 
 DOCS = pathlib.Path(__file__).resolve().parents[3] / "docs"
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
-# The pictures of `nook evaluate character` are rows of panels of this width: ray traced, model, error.
+# Pictures of `nook evaluate character` are rows of panels with this width: ray traced, model, error.
 PANEL_PX, TITLE_PX, GAP_PX = 420, 64, 4
-# The colours of an error end at this value.
+# The AO error at the end of the colour scale.
 ERROR_END = 0.25
-# Viridis, which the tool draws errors with, from its end to its beginning.
+# The colours of viridis, with which the tool draws errors, from the end to the beginning of the scale.
 VIRIDIS = [(253, 231, 37), (181, 222, 43), (110, 206, 88), (53, 183, 121), (31, 158, 137), (38, 130, 142), (49, 104, 142),
            (62, 73, 137), (72, 40, 120), (68, 1, 84)]
-# Name, options of the bake, and what is wrong or right with it.
+# For each bake: its name, its options, and what is wrong or right with it.
 BAKES = (("fox_auto", ["--poses", "auto"], "fault: no clips fitted"),
          ("fox_few", ["--poses", "all", "--spheres", "4", "--key-points", "24"], "fault: 4 spheres"),
          ("fox_all", ["--poses", "all"], "cure: clips fitted,\ndefault spheres"))
 
 
 def measured(nook, fox, name, options, folder):
-    """The error of a draft bake with these options as a share of a static bake's, and a pose of it."""
+    """Makes a draft bake with these options. Returns its error divided by the error of a static
+    bake, and the picture of a pose."""
     model, report, images = folder / f"{name}.nook", folder / f"{name}.json", folder / f"img_{name}"
     if not model.exists():
         subprocess.run([nook, "bake", "character", fox, "--preset", "draft", *options, "-o", model, "--quiet"], check=True)
@@ -48,7 +50,8 @@ def panel(picture, index, words):
 
 
 def colour_bar(height, colours):
-    """The scale of the errors; `colours` are the end's and the beginning's, as the tool draws them."""
+    """Draws the colour scale of the errors. `colours` are the tool's colours from the end to the beginning of
+    the scale."""
     out = Image.new("RGB", (PANEL_PX, height), "white")
     draw, font = ImageDraw.Draw(out), ImageFont.truetype(FONT, 22)
     top, bottom = TITLE_PX + 40, height - 60
@@ -61,7 +64,7 @@ def colour_bar(height, colours):
 
 
 def between(colours, count):
-    """`count` colours along a list of colours."""
+    """Returns `count` colours, interpolated along a list of colours."""
     out = []
     for i in range(count):
         at = i * (len(colours) - 1) / (count - 1)
