@@ -81,7 +81,7 @@ std::optional<std::vector<std::byte>> bytes_of(const fs::path& path) {
   }
 }
 
-// Returns the result from both files, or nothing if the two files do not belong together.
+// Returns the result that the two files contain, or nothing if they do not belong together.
 std::optional<BakeOutput> checked(const std::vector<std::byte>& entry, std::vector<std::byte> model) {
   const Json json = Json::parse(entry.begin(), entry.end(), nullptr, false);
   if (!json.is_object()) return std::nullopt;
@@ -95,8 +95,8 @@ std::optional<BakeOutput> checked(const std::vector<std::byte>& entry, std::vect
   return fits ? std::optional(std::move(output)) : std::nullopt;
 }
 
-// Records the time of use, because pruning removes the least recently used entries. Fails silently in a
-// read-only folder.
+// Records that the entry was used now, because pruning removes the least recently used entries. Does nothing
+// in a read-only folder.
 void note_use(const fs::path& place) {
   utimensat(AT_FDCWD, place.c_str(), nullptr, 0);
 }

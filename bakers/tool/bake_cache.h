@@ -1,10 +1,11 @@
-// A folder that stores the results of bakes by their keys. Several programs on several hosts may share it,
-// also over NFS. It needs no locks, because every file is written completely and then renamed into place.
+// A folder that stores the results of bakes by their keys. Several programs on several hosts may use the same
+// folder, also over NFS. The cache needs no locks, because every file is first written completely and then
+// renamed to its final name.
 //
 //   DIR/ab/KEY.json  the report, the table, and the checksums of report, table and model
 //   DIR/ab/KEY.nook  the model; ab are the first two digits of KEY
 //
-// The report is renamed into place before the model, so that a model never exists without its report.
+// The report gets its final name before the model, so that a model never exists without its report.
 #pragma once
 
 #include <cstdint>
@@ -27,12 +28,12 @@ class BakeCache {
   // Makes the folder if it does not exist. Throws ToolError.
   explicit BakeCache(std::filesystem::path folder);
 
-  // Returns the result of a key. An entry that does not match its checksums counts as missing, and a message
-  // on the error stream says so. Unless `quiet` is true, a message also says when a result came from the
-  // cache.
+  // Returns the result that is stored for a key. If an entry does not match its checksums, it is treated as
+  // missing, and a message on the error stream says so. Unless `quiet` is true, a message also says when a
+  // result was found.
   std::optional<BakeOutput> find(const std::string& key, bool quiet) const;
 
-  // Stores a result. If storing fails, the bake does not fail. A message on the error stream says why.
+  // Stores a result. If this fails, a message on the error stream says why, but the bake does not fail.
   void store(const std::string& key, const BakeOutput& output) const;
 
  private:

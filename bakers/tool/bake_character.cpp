@@ -38,12 +38,14 @@ struct Options {
   double time_limit_s = 0;
 };
 
-// The option was already checked, so the text is a number in range or the word.
+// The text of the option has already been checked. It is either a number in range or the word that is allowed
+// instead.
 float gamma_of(const std::string& text) {
   return text == "learned" ? NOOK_BAKE_GAMMA_LEARNED : std::strtof(text.c_str(), nullptr);
 }
 
-// Returns the settings as a descriptor. The character is not set, because the command has no handle.
+// Returns the settings as a descriptor. Its `character` is not set, because the command does not have a
+// handle.
 nook_bake_character_desc desc_of(const Options& options, const std::vector<const char*>& clips) {
   nook_bake_character_desc desc;
   nook_bake_character_desc_init(&desc);
@@ -78,7 +80,8 @@ bake::Recipe requested_recipe(const Options& options, const bake::ImportedCharac
   return bake::recipe_of(desc_of(options, clips), study, character);
 }
 
-// Returns nothing without --calibrate. Leaves out poses of other bodies.
+// Returns the poses of the file that --calibrate names, or nothing without this option. Poses of other bodies
+// are left out.
 bake::CalibrationPoses recorded_poses(const Options& options, const bake::SkinnedMesh& mesh) {
   if (options.calibration.empty()) return {};
   return naming_file(options.calibration, [&] {
@@ -95,7 +98,7 @@ bake::CalibrationPoses recorded_poses(const Options& options, const bake::Skinne
   });
 }
 
-// The table leaves out the keys that are only useful in a file.
+// Leaves out of the table the keys that are only useful in the report file.
 BakeOutput output_of(bake::BakedFile file) {
   nlohmann::ordered_json row = nlohmann::ordered_json::parse(file.report);
   const std::string summary = platform::printable(row["summary"].get<std::string>());
@@ -174,7 +177,7 @@ void add_choice(Command command, const char* name, std::int32_t& value, const Na
       .type_name("NAME");
 }
 
-// The form of the model and how it is fitted.
+// Adds the options for the form of the model and for the fit.
 void add_form_options(Command command, Options& o) {
   add_choice(command, "--form", o.form, {{"default", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
              "method of the bake: default, or paper, which uses the kernel, the fit and the gamma of 2 of Le "

@@ -53,7 +53,7 @@ PreparedBake prepare(const Options& o) {
   });
   const bake::BakeIdentity identity = in.identity;
   return {identity, [&o, in = std::move(in)] {
-            // The table has one line for each row. The error by modes is only in the report.
+            // The table has one line for each row, so error_of_modes, which is a list, is only in the report.
             return one_row(naming_file(o.input, [&] { return bake(o, in); }), {"error_of_modes"});
           }};
 }

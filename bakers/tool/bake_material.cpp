@@ -36,12 +36,13 @@ struct Options {
   std::string meso, visibility_mapping;
   BakeOptions baking;
   std::filesystem::path pbr, btf, raw, keep_raw, images;
-  std::filesystem::path relief;              // a height image; empty: none
-  FloatColours colours = FloatColours::rgb;  // for the images of --btf
+  std::filesystem::path relief;              // path of a height image; empty: none
+  FloatColours colours = FloatColours::rgb;  // how to read the colours of floating-point images of --btf
   std::uint32_t directions = 100, lights = 0, texels = 0;
   float max_tilt_deg = bake::material::default_max_tilt_deg;
   TraceSettings trace;
-  float tile_side_m = 1;  // of a mesh in --meso, of the maps of --pbr and of the image of --relief
+  float tile_side_m = 1;  // side of the tile in metres: of a mesh of --meso, of the maps of --pbr, and of the
+                          // image of --relief
   float height_scale_m = 0.05f;
   bake::ImportOptions reading;
   std::optional<std::uint32_t> count;
@@ -61,7 +62,8 @@ MesoParameters meso_of(const Options& o) {
   return p;
 }
 
-// Any value of --meso that is not a built-in structure names a mesh.
+// Returns true if the value of --meso is the path of a mesh, which means that it is not the name of a
+// built-in structure.
 bool is_mesh(const std::string& meso) {
   return !meso.empty() && std::ranges::count(meso_names(), std::string_view(meso)) == 0;
 }
@@ -70,8 +72,8 @@ bool is_traced(const Options& o) {
   return !o.meso.empty() || !o.pbr.empty();
 }
 
-// Returns the number of grid points along a side of the maps. There is one grid point for each view ray,
-// because rays cannot see detail between them.
+// Returns the number of grid points along each side of the maps. There is one grid point for each view ray,
+// because detail between rays is not seen.
 std::uint32_t map_points(const Options& o) {
   constexpr std::uint32_t fewest = 4, most = 384;
   return std::clamp(o.trace.width * o.trace.samples, fewest, most);
@@ -147,8 +149,8 @@ bake::Progress shown_on(platform::ProgressBar& bar, const char* label, const cha
   };
 }
 
-// What a bake compresses: a raw material, or a structure that is traced first. Also has the heights of
-// --relief.
+// The input of the compression: a raw material, or a structure that must be traced first. Also contains the
+// heights of --relief.
 struct Source {
   RawMaterial raw;
   std::optional<bake::MesoSource> traced;
@@ -172,8 +174,9 @@ RawMaterial obtain(const Options& o, const Source& source, platform::ProgressBar
   return raw;
 }
 
-// Reads the image of --relief. For a material that will be traced, it is resampled to that material's texels.
-// For a material from a file, it keeps its own texels. Throws for heights out of range.
+// Reads the image of --relief. If the material will be traced, resamples the image to the texels of the
+// material. If the material comes from a file, the image keeps its own resolution. Throws if heights are out
+// of range.
 PbrMaps read_relief(const Options& o) {
   return naming_file(o.relief, [&] {
     PbrMaps image = read_height_image(o.relief);
@@ -196,7 +199,8 @@ void set_heights(const Options& o, const PbrMaps& image, RawMaterial& raw) {
     for (std::size_t y = 0; y < raw.height; ++y) raw.heights[x * raw.height + y] = z[y * raw.width + x];
 }
 
-// Warns that decoding without a view map is more expensive than the settings of K-CTA suggest.
+// Warns if a K-CTA material gets no view map, because decoding it is then more expensive than its settings
+// suggest.
 void note_missing_map(const Options& o, const CompressionSettings& settings) {
   if (!o.common.quiet && settings.method == Method::k_cta && settings.map_side == 0)
     std::fprintf(stderr,
@@ -228,18 +232,20 @@ bake::BakeIdentity identity_of(const Options& o, const Source& source) {
     settings["height_scale"] = o.height_scale_m;
     settings["tile_side"] = o.tile_side_m;
   }
-  // A result that was cached without --strict may have a bad verdict, so --strict is part of the identity.
+  // A cached result of a bake without --strict may have a bad verdict, so --strict must be part of the
+  // identity.
   if (o.strict) settings["strict"] = true;
   return bake::identify_bake(bake::BakeKind::material, settings, inputs);
 }
 
-// The table has no room for sentences. They are printed above it.
+// Removes the sentences from a row. They do not fit into the table and are printed above it.
 Json without_words(Json row) {
   row.erase("verdict_words");
   return row;
 }
 
-// Prints the verdict on the material. With --strict, throws if the verdict is bad, before a file is replaced.
+// Prints the verdict on the material. With --strict, throws if the verdict is bad. This happens before an
+// existing file is replaced.
 void tell_verdict(const Options& o, const Verdict& verdict) {
   if (o.strict && verdict.grade == Grade::bad)
     throw ToolError(exit_bad_result,

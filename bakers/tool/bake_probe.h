@@ -1,4 +1,4 @@
-// Options of `nook bake probe`, for its two kinds of input.
+// The options of `nook bake probe`, for both kinds of input.
 #pragma once
 
 #include <array>
@@ -19,7 +19,8 @@ struct BakeProbeOptions {
   // For one map:
   std::filesystem::path picture;
   std::string sampling = "automatic";
-  std::uint32_t samples = 0;  // 0: 1,048,576 for a map; at most 65,536 for each probe of a grid
+  std::uint32_t samples = 0;  // for a map or for each probe of a grid; 0: 1,048,576 for a map, and up to
+                              // 65,536 for a probe of a grid
 
   // For a scene:
   std::array<std::uint32_t, 3> grid{0, 0, 0};

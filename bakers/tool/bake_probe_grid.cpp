@@ -55,7 +55,7 @@ std::vector<std::byte> file_of(const BakeProbeOptions& options, const GridBake& 
   return probe::write_probes(probes, packing_of(options.probe));
 }
 
-// Runs passes until the error is small enough, the samples are used up, or the user stops it.
+// Runs passes until the error is small enough, all samples are used, or the user stops the bake.
 double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max_passes) {
   platform::ProgressBar bar(options.common.quiet);
   bake::GridRefinement refinement;
@@ -67,7 +67,7 @@ double refine(const BakeProbeOptions& options, GridBake& grid, std::uint32_t max
     return !interrupted();
   };
   refinement.preview = [&](double error) {
-    // A preview is not the final result, so it gets no identity.
+    // A preview is not the final result, so its file does not get an identity.
     platform::OutputFile(options.baking.output).commit(file_of(options, grid, grid.probes(), error, {}));
     char label[64];
     std::snprintf(label, sizeof label, "preview written, error %.3g", error);
@@ -138,7 +138,8 @@ PreparedBake prepare_probe_grid(const BakeProbeOptions& options) {
         exit_bad_arguments,
         "--preview-every: -o is a device or a pipe, where a preview cannot be replaced later (got " +
             options.baking.output.string() + "); give a file");
-  // The scene is read again for its hash, because decoded textures do not store the bytes of their files.
+  // To hash the scene, its files are read again, because decoded textures no longer contain the bytes of
+  // their files.
   const std::string scene_hash = naming_file(options.input, [&] {
     return bake::content_hash(bake::import_static_scene(
         options.input, options.no_textures ? bake::SceneTextures::skip : bake::SceneTextures::read,

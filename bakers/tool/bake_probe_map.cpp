@@ -57,7 +57,8 @@ BakeOutput bake(const BakeProbeOptions& options, const bake::Environment& map,
   baked.probes.recipe = recipe.dump(-1, ' ', false, Json::error_handler_t::replace);
   std::vector<std::byte> bytes = probe::write_probes(baked.probes, packing_of(options.probe));
 
-  // The error and the picture are made from the stored probe, so they include the loss by packing.
+  // The error and the picture are computed from the packed probe as the file stores it, so they include the
+  // loss from packing.
   const probe::Probes stored = probe::read_probes(bytes);
   const Json row = row_of(options, map, stored, bytes.size(), seconds);
   if (picture) picture->commit(bake::png_bytes(bake::probe::map_picture(map, stored.basis, stored.of(0))));

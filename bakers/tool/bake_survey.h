@@ -1,5 +1,6 @@
-// Describes a bake instead of performing it. `nook plan` parses the options of a bake with the bake's own
-// command. Through this struct, it learns which files the bake reads and what the bake's key is.
+// With a survey, a bake command describes its bake instead of performing it. `nook plan` uses this: it lets
+// the bake's own command parse the options. Through this struct, `nook plan` then learns which files the bake
+// reads and what the bake's key is.
 #pragma once
 
 #include <functional>
@@ -10,8 +11,9 @@ struct BakeCommand;
 struct PreparedBake;
 
 struct BakeSurvey {
-  // Called once, after the options were parsed and checked. `prepare` reads the inputs; call it only during
-  // this call. If `found` is empty, the options are parsed and nothing else happens.
+  // The command calls this function once, after the options were parsed and checked. `prepare` reads the
+  // inputs. You may only call `prepare` inside `found`. If `found` is empty, the command only parses the
+  // options.
   std::function<void(const BakeCommand& command, const std::function<PreparedBake()>& prepare)> found;
 };
 

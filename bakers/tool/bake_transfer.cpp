@@ -1,4 +1,5 @@
-// `nook bake transfer` bakes the visibility of lobes at the vertices of a static shape.
+// `nook bake transfer` bakes radiance transfer for a static shape: how much of each light lobe is visible
+// from each vertex.
 #include <cstdio>
 #include <memory>
 

@@ -22,8 +22,8 @@
 namespace nook::tool {
 namespace {
 
-// Runs a part of the bake on its threads. If the part is stopped, converts its exception to the message for
-// the user.
+// Runs a part of the bake on the requested threads. If the user stops the part, converts the exception to the
+// message for the user.
 template <class Part>
 void run_part(const BakeCommand& command, Part&& part) {
   const auto stopped = [&] { return ToolError(exit_other, command.stopped); };
@@ -33,7 +33,8 @@ void run_part(const BakeCommand& command, Part&& part) {
     if (failure.code() == NOOK_ERROR_CANCELLED) throw stopped();
     throw;
   } catch (const ToolError&) {
-    // A failure that naming_file() has extended by the name of an input arrives as ToolError.
+    // naming_file() converts a failure to a ToolError and adds the name of the input, so a cancelled part can
+    // also arrive here.
     if (interrupted()) throw stopped();
     throw;
   }
@@ -57,7 +58,7 @@ std::optional<BakeCache> cache_of(const BakeOptions& options) {
   return BakeCache(folder);
 }
 
-// Takes the result from the cache, or else bakes it and stores it in the cache.
+// Returns the result from the cache. If the cache does not have it, bakes it and stores it in the cache.
 BakeOutput obtain(const BakeCommand& command, const std::optional<BakeCache>& cache,
                   const PreparedBake& prepared) {
   if (!cache || command.has_time_limit) return prepared.perform();
@@ -76,7 +77,8 @@ void print_key(const BakeCommand& command, const std::function<PreparedBake()>& 
   platform::print(key + "\n");
 }
 
-// Warns even with --quiet. Otherwise, a build would bake every time without saying why.
+// Warns about names that Ninja cannot read, even with --quiet. Without the warning, a build would bake every
+// time without saying why.
 std::string rule_of(const BakeCommand& command) {
   const std::filesystem::path& output = command.baking.output;
   const std::vector<std::filesystem::path> read = files_read(command.files, command.reads_images);
@@ -145,8 +147,8 @@ void run_bake(BakeCommand command, const std::function<PreparedBake()>& prepare)
   make_image_folder(files.images);
   BakeOutput output;
   run_part(command, [&] { output = obtain(command, cache, prepare()); });
-  // The report is written before the file. So if the file exists, its report exists too, even if the program
-  // is killed in between.
+  // Writes the report before the baked file. If the baked file exists, its report therefore exists too, even
+  // if the program was killed in between.
   if (report_file) report_file->commit(output.report);
   if (rule_file) rule_file->commit(rule);
   output_file.commit(output.file);

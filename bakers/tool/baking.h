@@ -32,12 +32,13 @@ void add_bake_options(Command command, BakeOptions& options);
 struct BakeCommand {
   const CommonOptions& common;
   const BakeOptions& baking;
-  CommandFiles files;  // inputs and outputs of the bake, without its output, report and depfile
+  CommandFiles files;  // the other files that the bake reads and writes, without the baked file, its report
+                       // and its depfile
   std::string stopped = "stopped; nothing was written";  // the message after Ctrl-C
-  // True if the bake also writes other outputs than its file and report, such as pictures. A cache cannot
-  // store these.
+  // True if the bake also writes outputs that a cache cannot store, such as pictures. The cache only stores
+  // the baked file and the report.
   bool makes_more = false;
-  bool reads_images = false;  // whether it reads the images of its glTF files
+  bool reads_images = false;  // true if the bake reads the images of its glTF files
   // True if the bake has a time limit. Then the result depends on the speed of the machine, and it is not
   // stored in the cache.
   bool has_time_limit = false;
@@ -49,20 +50,21 @@ struct BakeOutput {
   std::string table;   // shown to the user
 };
 
-// A bake with inputs that are read and checked. The work has not started.
+// A bake whose inputs have been read and checked, but whose work has not started.
 struct PreparedBake {
   bake::BakeIdentity identity;
   std::function<BakeOutput()> perform;  // owns everything that it uses
 };
 
-// Makes a report with one row: {"rows": [row]}, where the row is file.report. The table for the user leaves
-// out the keys in only_in_report.
+// Makes a report with one row, {"rows": [row]}, where the row is file.report. The table that the user sees
+// does not contain the keys in only_in_report.
 BakeOutput one_row(bake::BakedFile file, std::initializer_list<const char*> only_in_report = {});
 
-// Prepares the bake, and performs it unless the cache has its result. Writes the report, the depfile and the
-// file, in this order, and prints the table. Before the work begins, checks that files and folders can be
-// written, and that no output would replace an input. A stopped bake writes nothing. With --print-key, only
-// prepares the bake and prints its key. With a survey, calls the survey and does nothing else.
+// Prepares the bake. If the cache has the result, uses it, and otherwise performs the bake. Then writes the
+// report, the depfile and the baked file, in this order, and prints the table. Before the work begins, checks
+// that files and folders can be written, and that no output would replace an input. If the user stops the
+// bake, nothing is written. With --print-key, only prepares the bake and prints its key. With a survey, only
+// calls the survey.
 void run_bake(BakeCommand command, const std::function<PreparedBake()>& prepare);
 
 }  // namespace nook::tool

@@ -28,8 +28,8 @@ struct Options {
   unsigned jobs = 0;
 };
 
-// Ninja puts the text in this variable before each of its status lines: the numbers of finished and of all
-// edges.
+// Ninja prints the text of this variable in front of each status line. We set it so that it contains the
+// number of finished edges and the number of all edges.
 constexpr const char* status_variable = "NINJA_STATUS";
 constexpr const char* status_form = "@nook %f %t@ ";
 constexpr const char* failed_line = "FAILED: ";
@@ -70,7 +70,8 @@ class NinjaOutput {
   std::size_t failed() const { return failed_; }
 
  private:
-  // A status line has the counts. The name after the counts is already in the log.
+  // A status line begins with the counts. The name that follows them is already in the log, so it is not
+  // shown.
   void line(const std::string& text) {
     std::size_t done = 0, total = 0;
     if (std::sscanf(text.c_str(), "@nook %zu %zu@", &done, &total) == 2) {

@@ -13,9 +13,9 @@
 namespace nook::tool {
 namespace {
 
-constexpr int exit_not_started = 127;  // the code that shells use
+constexpr int exit_not_started = 127;  // the exit code that shells use if a program cannot be started
 
-// Makes only calls that are allowed between fork and exec.
+// Replaces the forked process by the program. Only makes calls that are allowed between fork and exec.
 [[noreturn]] void become(const char* program, char* const* arguments, int output, int error, pid_t parent) {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, SIGTERM);

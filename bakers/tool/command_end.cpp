@@ -25,10 +25,12 @@ void watch_for_interrupt() {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     struct sigaction before = {};
     sigaction(signal, nullptr, &before);
-    // Keeps ignored signals ignored, so that work continues under nohup and in the background of a script.
+    // A signal that is ignored stays ignored, so that work continues under nohup and in the background of a
+    // script.
     if (before.sa_handler != SIG_IGN) sigaction(signal, &action, nullptr);
   }
-  // If the reader is gone, a write fails and is reported. It does not end the process.
+  // If the reader of a pipe has ended, a write to the pipe then fails with an error that is reported, instead
+  // of ending the process.
   std::signal(SIGPIPE, SIG_IGN);
   std::signal(SIGXFSZ, SIG_IGN);  // the write then fails, like on a full disk
 }

@@ -1,5 +1,5 @@
 // Ways to end a command before its work is done. A failure has a text for the user and a documented exit
-// code. Ctrl-C sets a flag.
+// code. Ctrl-C only sets a flag, which the command has to check.
 #pragma once
 
 #include <nook/nook.h>
@@ -28,8 +28,8 @@ class ToolError : public std::runtime_error {
   ExitCode code_;
 };
 
-// Thrown to end a command with an exit code after the command has already told the user why. The code can be
-// the exit code of a program that the command ran.
+// Throw this to end a command with an exit code when the command has already told the user the reason. The
+// code can be the exit code of another program that the command ran.
 class CommandEnd {
  public:
   explicit CommandEnd(int code) : code_(code) {}
@@ -53,15 +53,15 @@ inline ExitCode exit_code_of(nook_result result) {
   }
 }
 
-// Makes Ctrl-C set a flag, which long work checks between its steps. The first SIGINT, SIGTERM or SIGHUP sets
-// the flag. A second one ends the process at once. A signal that was ignored when the program began stays
-// ignored.
+// Makes Ctrl-C set a flag that long work checks between its steps. The first SIGINT, SIGTERM or SIGHUP sets
+// the flag. The second of these signals ends the process at once. A signal that was ignored when the program
+// began stays ignored.
 void watch_for_interrupt();
 bool interrupted();
 
-// Returns events for files that may be pipes: waiting for such a file ends when the flag is set. Messages on
-// the error stream say what a command waits for. Without --quiet, messages also report other effects on a
-// file that is replaced.
+// Returns the event callbacks for reading and writing files that may be pipes. While a command waits for a
+// pipe, a message on the error stream says so, and the wait ends when the flag is set. Unless `quiet` is
+// true, messages also report what else happens to a file that is replaced.
 platform::FileEvents file_events(bool quiet);
 
 }  // namespace nook::tool

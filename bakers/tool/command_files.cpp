@@ -26,8 +26,9 @@ namespace nook::tool {
 namespace {
 
 constexpr FourLetters raw_material = four_letters("MRAW");
-// Raw materials can have up to 16 GiB of floats, which they store in half as many bytes. .btf files from
-// other tools can be large too. All other kinds are far below 4 GiB at the limits of their formats.
+// A raw material can have up to 16 GiB of floats, which its file stores in half as many bytes. .btf files
+// from other tools can also be large. Files of all other kinds are far smaller than 4 GiB, even at the limits
+// of their formats.
 constexpr std::uint64_t max_raw_bytes = std::uint64_t{16} << 30, max_nook_bytes = std::uint64_t{4} << 30;
 
 std::uint64_t memory_bytes() {
@@ -35,7 +36,8 @@ std::uint64_t memory_bytes() {
   return pages > 0 && size > 0 ? std::uint64_t(pages) * std::uint64_t(size) : UINT64_MAX;
 }
 
-// Throws std::runtime_error. Reading a file larger than the memory would end the program.
+// Throws std::runtime_error if the file is too large. Reading a file that is larger than the memory would end
+// the program.
 void check_size(const std::filesystem::path& path, std::uint64_t size, std::uint64_t most) {
   const std::uint64_t memory = memory_bytes();
   const bool fits_machine = size <= memory;
@@ -95,8 +97,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Two paths name one file if their identities are equal. An existing file has its device and inode. A new
-// file has the device and inode of its folder, and its name.
+// Two paths name the same file if their identities are equal. The identity of an existing file is its device
+// and inode. The identity of a file that does not exist yet is the device and inode of its folder, and its
+// name.
 struct Identity {
   dev_t device = 0;
   ino_t inode = 0;
@@ -125,7 +128,7 @@ std::optional<KnownFile> identify(const NamedFile& file) {
   return KnownFile{file.option, file.path, {there.st_dev, there.st_ino, target.filename().string()}, false};
 }
 
-// A percent sign and two hexadecimal digits encode a byte.
+// Decodes a URI, in which a percent sign and two hexadecimal digits encode a byte.
 std::string decode_uri(const std::string& uri) {
   std::string text;
   for (std::size_t i = 0; i < uri.size(); ++i) {
@@ -138,7 +141,7 @@ std::string decode_uri(const std::string& uri) {
   return text;
 }
 
-// Returns the JSON of a glTF file of either form; null if there is none. The import reports its errors.
+// Returns the JSON of a .gltf or .glb file, or null if it cannot be read. The import reports the error later.
 nlohmann::json document_of(const fs::path& path) {
   std::error_code error;
   const fs::path extension = path.extension();
@@ -156,7 +159,7 @@ nlohmann::json document_of(const fs::path& path) {
   return nlohmann::json::parse(text, nullptr, false);
 }
 
-// Returns the files that a glTF file refers to in these lists.
+// Returns the files that a glTF file refers to in its lists `kinds`, such as "buffers" and "images".
 std::vector<NamedFile> referred_files(const NamedFile& gltf, std::initializer_list<const char*> kinds) {
   std::vector<NamedFile> files;
   const auto document = document_of(gltf.path);

@@ -12,16 +12,17 @@
 
 namespace nook::tool {
 
-// Reads a .nook file. Before reading the rest, compares the size in the first bytes with the memory of the
-// machine. If the file does not begin like a .nook file, returns only the first bytes. They are enough for a
-// reader to reject the file. Throws ToolError (bad input) that names the file, and platform::Stopped.
+// Reads a .nook file. Its first bytes contain its size, which is compared with the memory of the machine
+// before the rest is read. If the file does not begin like a .nook file, returns only the first bytes, so
+// that the code that parses them rejects the file. Throws ToolError (bad input) that names the file, and
+// platform::Stopped.
 std::vector<std::byte> read_file(const std::filesystem::path& path);
 
 // Reads a file of any kind, up to the size of the largest file that a command accepts.
 std::vector<std::byte> read_any_file(const std::filesystem::path& path);
 
-// Runs `body`. Converts a Failure inside to a ToolError. Puts the file's name in front of the text, unless
-// the text already contains it.
+// Runs `body`. If `body` throws a Failure, converts it to a ToolError, and puts the file's name in front of
+// its text unless the text already contains the name.
 template <class Body>
 auto naming_file(const std::filesystem::path& path, Body&& body) {
   try {
@@ -33,7 +34,7 @@ auto naming_file(const std::filesystem::path& path, Body&& body) {
   }
 }
 
-// A path and the option that it came from. An empty path means that the option was not given.
+// A path and the option that named it. An empty path means that the option was not given.
 struct NamedFile {
   std::string option;
   std::filesystem::path path;
@@ -46,16 +47,17 @@ struct CommandFiles {
 };
 
 // Throws ToolError (bad arguments) that names both options if an output is the same file as an input or
-// another output. Files are compared by device and inode, so different names for one file are found. Inputs
-// include files that a .gltf refers to, and files in a folder that is read. Several outputs may go to one
-// character device.
+// another output. Files are compared by device and inode, so different names for one file are found. The
+// inputs include the files that a .gltf refers to, and the files in an input folder. Several outputs may be
+// written to the same character device.
 void require_distinct_files(const CommandFiles& files);
 
-// Makes the folder before the work begins. Does nothing for an empty path. Throws ToolError.
+// Makes the folder of --images. Call this before the work begins. Does nothing if the path is empty. Throws
+// ToolError.
 void make_image_folder(const std::filesystem::path& folder);
 
-// Converts a name from inside a file to the beginning of a file name. Slashes and control characters become
-// underscores.
+// Converts a name that was read from a file, such as a clip's name, to a part of a file name. Slashes and
+// control characters become underscores.
 std::string as_file_name(const std::string& name);
 
 }  // namespace nook::tool

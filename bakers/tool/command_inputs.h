@@ -12,7 +12,8 @@
 
 namespace nook::tool {
 
-// Prints the warnings of an import about what it left out or repaired, unless the command is quiet.
+// Prints the warnings of an import, which say what it left out or repaired. Prints nothing if the command is
+// quiet.
 void print_warnings(const std::filesystem::path& path, const std::vector<std::string>& warnings,
                     const CommonOptions& common);
 
@@ -28,8 +29,9 @@ bake::RigCorrections read_rig_file(const std::filesystem::path& path, const bake
 // lists the clips of the character.
 void require_clips(const std::vector<std::string>& wanted, const bake::ImportedCharacter& character);
 
-// Reads a scene and prints its warnings. Throws ToolError (bad input) that names the file, and the texture if
-// that is at fault. If textures are not read, uses only the colour factors of materials.
+// Reads a scene and prints its warnings. If textures are not read, uses only the colour factors of materials.
+// Throws ToolError (bad input) that names the file. If a texture causes the error, the message also names the
+// texture.
 bake::ProbeScene read_probe_scene(const std::filesystem::path& scene, const std::filesystem::path& light,
                                   bool textures, const bake::ImportOptions& reading,
                                   const CommonOptions& common);

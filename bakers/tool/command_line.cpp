@@ -91,7 +91,7 @@ Option Option::excludes(Option other) const {
   return Option(option_->excludes(other.option_));
 }
 Option Option::number_of(const std::map<std::string, int>& numbers) const {
-  // CLI11 would print the numbers too, which mean nothing to users.
+  // CLI11 would also print the enum values, which mean nothing to users.
   std::string names;
   for (const auto& [name, number] : numbers) names += (names.empty() ? "{" : ",") + name;
   return Option(option_->transform(CLI::CheckedTransformer(numbers).description(names + "}")));
@@ -130,7 +130,7 @@ void copy_stream(std::vector<Path>& paths, InputCopies& copies) {
   for (Path& path : paths) copy_stream(path, copies);
 }
 
-// In a message, replaces the names of copies by the names of the user's files.
+// In a message, replaces the names of temporary copies by the names that the user gave.
 std::string without_copies(std::string text, const InputCopies& copies) {
   for (const NamedCopy& each : copies) {
     const std::string path = each.copy->path().string();
@@ -141,8 +141,8 @@ std::string without_copies(std::string text, const InputCopies& copies) {
   return text;
 }
 
-// Refuses an empty name, which a script with an unset variable gives, and "-", which many programs accept for
-// a stream.
+// Rejects an empty name, which a script passes if its variable is not set. Also rejects "-", which many
+// programs accept as the name of a stream.
 std::string fault_of_path(const std::string& path) {
   if (path.empty()) return "the name of a file is empty";
   return path == "-" ? "\"-\" is not a file; use /dev/stdin or /dev/stdout for the streams, and ./- for a "
@@ -150,8 +150,8 @@ std::string fault_of_path(const std::string& path) {
                      : "";
 }
 
-// Refuses what a conversion to an unsigned type would change without a word: it takes -1 as the largest
-// number, and numbers that are too large as well.
+// Rejects numbers that a conversion to an unsigned type would silently change. It would convert -1 and
+// numbers that are too large to the largest number.
 std::string fault_of_whole_number(const std::string& text, std::uint64_t largest) {
   std::uint64_t number = 0;
   const char* end = text.data() + text.size();
@@ -163,7 +163,8 @@ std::string fault_of_whole_number(const std::string& text, std::uint64_t largest
 template <class T>
 constexpr bool is_path =
     std::is_same_v<T, std::filesystem::path> || std::is_same_v<T, std::vector<std::filesystem::path>>;
-// The largest number of an option that takes whole numbers without a sign, 0 for other options.
+// Returns the largest number that an option of type T accepts if T is an unsigned integer, and 0 for other
+// types.
 template <class T>
 constexpr std::uint64_t largest_number = 0;
 template <>

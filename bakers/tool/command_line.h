@@ -1,6 +1,6 @@
 // Wraps CLI11: commands and their options. CLI11's headers add four seconds to the compilation of each file
-// that includes them. So only command_line.cpp, command_program.cpp and the main.cpp of the programs include
-// them.
+// that includes them. Therefore, only command_line.cpp, command_program.cpp and the main.cpp files of the
+// programs include them.
 #pragma once
 
 #include <filesystem>
@@ -48,18 +48,19 @@ class Option {
   Option required() const;
   Option check(const Check& check) const;
   Option check(const std::function<std::string(const std::string&)>& fault)
-      const;                                                        // returns what is wrong, or nothing
-  Option each(const std::function<void(std::string)>& seen) const;  // calls seen for each text
+      const;  // returns what is wrong, or nothing
+  // Calls `seen` for each text of the option.
+  Option each(const std::function<void(std::string)>& seen) const;
   Option capture_default_str() const;  // the help text shows the variable's value as the default
   Option default_str(const std::string& text) const;
   Option type_name(const std::string& name) const;
   Option delimiter(char between) const;
-  Option one_each() const;  // a list option takes one text each time that it is given
+  Option one_each() const;  // each time that a list option is given, it takes only one text
   Option expected(int count) const;
   Option expected(int least, int most) const;
   Option needs(Option other) const;
   Option excludes(Option other) const;
-  // The option's texts are names in the map. Each name is converted to its number.
+  // The texts of the option must be names in the map. Each name is converted to its number.
   Option number_of(const std::map<std::string, int>& numbers) const;
 
  private:
@@ -79,19 +80,20 @@ class Command {
   void callback(const std::function<void()>& run) const;
   const BakeSurvey* survey() const { return survey_; }
 
-  // command_line.cpp instantiates this for certain types T: text, paths, numbers, and vectors and optionals
-  // of these.
+  // command_line.cpp instantiates this template for these types T: text, paths, numbers, and vectors and
+  // optionals of them.
   template <class T>
   requires(!std::is_enum_v<T>) Option add_option(const char* names, T& value, const std::string& help)
   const;
-  // Adds an option that names one or more files to read. T is text, a path or a vector of paths. If a file is
-  // a pipe, it is read to its end before the command runs, and the value becomes the name of a copy.
+  // Adds an option that names one or more input files. T is text, a path or a vector of paths. If a file is a
+  // pipe, it is read to its end before the command runs. The value of the option is then the name of a
+  // temporary copy.
   template <class T>
   Option add_input(const char* names, T& value, const std::string& help) const {
     reads(value);
     return add_option(names, value, help);
   }
-  // Like the function above, but calls a function with the value.
+  // Like the function above, but passes the value to a function.
   template <class T>
   void reads(T& value) const;
   Option add_option_function(const char* names, const std::function<void(const std::string&)>& set,
@@ -100,7 +102,7 @@ class Command {
   Option add_flag_callback(const char* names, const std::function<void()>& set,
                            const std::string& help) const;
 
-  // Adds an option that accepts the names of the map.
+  // Adds an option whose text must be a name in the map.
   template <class T>
   Option add_choice(const char* option_names, T& value, const std::map<std::string, T>& values,
                     const std::string& help) const {
@@ -120,9 +122,9 @@ class Command {
   std::shared_ptr<Inputs> inputs_;
 };
 
-// Parses words like the arguments of a program, and runs the command that they name. `add` adds the commands,
-// which receive the survey. Throws ToolError (bad arguments) if the words are invalid, and what the command
-// throws.
+// Parses words like the arguments of a program, and runs the command that they name. `add` must add the
+// commands. The commands receive the survey. Throws ToolError (bad arguments) if the words are invalid, and
+// what the command throws.
 void run_words(std::vector<std::string> words, const std::function<void(Command)>& add,
                const BakeSurvey* survey);
 

@@ -38,7 +38,8 @@ std::string name_of(const std::vector<CLI::App*>& commands, std::size_t first = 
   return joined(names, " ");
 }
 
-// Returns the end of a message about words that this program does not know.
+// Returns a sentence that names the other program if the unknown words belong to it. It is added to the
+// message about these words.
 std::string elsewhere(CLI::App& program, const ElsewhereWords& words) {
   const std::string command = name_of(named_commands(program), 1);
   const auto known = words.words.find(command);
@@ -103,7 +104,7 @@ int parse(CLI::App& program, int argc, char** argv, const ElsewhereWords& words)
   return exit_done;
 }
 
-// The advice for a lack of memory depends on the command.
+// Returns the advice for a command that ran out of memory. It depends on the command.
 std::string memory_advice(CLI::App& program) {
   const std::string name = name_of(named_commands(program));
   if (name.ends_with("bake character")) return "; use fewer poses, or a smaller preset";

@@ -1,5 +1,5 @@
 // A command line program with subcommands. Parses the arguments and runs the command that they name. Converts
-// failures to a line on the error stream and an exit code. `nook` and `nook-lab` use it.
+// failures to a line on the error stream and an exit code. Both `nook` and `nook-lab` use this code.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,6 @@
 // The subcommands. main.cpp calls these functions, and each adds a command with its options to the parent.
-// The command runs when the parent is parsed. It returns, or throws ToolError or Failure. peers.h adds other
-// methods to evaluations.
+// The command runs when the parent parses its arguments. It throws ToolError or Failure if it fails. The
+// functions in peers.h add evaluations with additional methods.
 #pragma once
 
 namespace nook::tool {

@@ -1,4 +1,4 @@
-// The options of compression, which the commands on materials share.
+// The options for the compression, which several commands on materials share.
 #pragma once
 
 #include <string>
@@ -18,19 +18,21 @@ struct CompressionOptions {
 
 void add_compression_options(Command command, CompressionOptions& options);
 
-// Returns the settings for a material. Ranks are given, taken from a built-in material, or chosen by the
-// threshold. Throws ToolError for unreadable ranks, and Failure for ranks that are not possible for the
-// material.
+// Returns the settings for a material. The ranks are those that the user gave, or those of a built-in
+// material, or they are chosen by the threshold. Throws ToolError for unreadable ranks, and Failure for ranks
+// that are not possible for the material.
 bake::material::CompressionSettings compression_settings(const CompressionOptions& options,
                                                          const bake::material::RawMaterial& raw);
 
-// Throws what compression_settings would throw for a material of these sizes, as far as that does not depend
-// on the material's values. A bake calls this before it traces rays. Set has_mask if the views will have a
-// mask. If `sizes` has no views, the sizes are unknown, and only the texts are checked.
+// Throws the errors that compression_settings would throw for a material of these sizes, except errors that
+// depend on the material's values. A bake calls this before it traces rays. Set has_mask if the views will
+// have a mask. If `sizes` has no views, the sizes are not known yet, and only the texts of the options are
+// checked.
 void check_compression(const CompressionOptions& options, const bake::material::RawMaterial& sizes,
                        bool has_mask);
 
-// Reads "T,W", or "paper" for the paper's values for this form. Throws ToolError for any other text.
+// Parses "T,W". Also accepts "paper", which stands for the values that the paper uses with this form. Throws
+// ToolError for any other text.
 nook::material::VisibilityMapping visibility_mapping(const std::string& text,
                                                      nook::material::VisibilityForm form);
 

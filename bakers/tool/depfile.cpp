@@ -8,9 +8,9 @@
 namespace nook::tool {
 namespace {
 
-// Ninja's depfile_parser.in.cc: a space or # is escaped by a backslash, and a dollar is doubled. Backslashes
-// directly before such an escape would be read as escapes themselves, so they are doubled. All other
-// backslashes are unchanged.
+// Escapes a path in the way that Ninja's depfile_parser.in.cc reads. A space or # gets a backslash in front,
+// and a dollar sign is doubled. Backslashes directly before such an escape would be read as escapes
+// themselves, so they are doubled. All other backslashes are unchanged.
 std::string escaped(const std::filesystem::path& path) {
   const std::string name = path.string();
   if (name.find_first_of("\n\r") != std::string::npos)

@@ -17,9 +17,9 @@ std::vector<std::filesystem::path> files_read(const CommandFiles& files, bool wi
 // name with a line break, which a rule cannot contain.
 std::string depfile_text(const std::filesystem::path& output, const std::vector<std::filesystem::path>& read);
 
-// Returns the first name that Ninja 1.11 would cut off, for example at a quote. Ninja would not find such a
-// file, and would bake every time. There is no escape for these characters. Returns an empty string if there
-// is no such name.
+// Returns the first name that Ninja 1.11 would cut off, for example at a quote. Such characters cannot be
+// escaped. Ninja would not find the file and would therefore bake every time. Returns an empty string if
+// there is no such name.
 std::string name_that_ninja_cuts(const std::filesystem::path& output,
                                  const std::vector<std::filesystem::path>& read);
 

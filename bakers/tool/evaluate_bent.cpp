@@ -21,8 +21,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Width of the maps for measuring. Suns are removed from the maps, because hosts draw suns as lights with
-// their own shadows. The rest is smooth enough for the number of rays of a reflection.
+// Width of the maps that are used for measuring. The suns are removed from these maps, because hosts draw
+// suns as lights with their own shadows. The remaining light is smooth enough for the number of rays that a
+// reflection uses.
 constexpr std::uint32_t map_columns = 64;
 
 struct Options {
@@ -36,7 +37,7 @@ struct Options {
   float image_roughness = 0.3f;
 };
 
-// Draws evenly picked poses under the first map.
+// Draws poses, picked at even intervals, under the first map.
 void draw(const Options& options, const measure::BakedCharacter& baked, const std::vector<bake::Pose>& poses,
           const measure::GlossyMap& map) {
   measure::GlossyPictureSettings settings;

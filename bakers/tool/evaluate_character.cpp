@@ -1,5 +1,5 @@
-// `nook evaluate character` compares a model, and the methods that a team would use instead, with ray
-// tracing.
+// `nook evaluate character` compares a model with ray tracing. It also measures the methods that a team would
+// use instead of the model.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,5 @@
-// `nook evaluate lods` measures meshes with less detail that get their AO from the bake of the full mesh.
+// `nook evaluate lods` measures the AO of meshes with less detail. Their AO comes from the bake of the full
+// mesh.
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -1,4 +1,5 @@
-// `nook evaluate nnao` draws recorded frames of the screen-space pass again, on OpenGL without a display.
+// `nook evaluate nnao` draws recorded frames of the screen-space pass again. It uses OpenGL without a
+// display.
 #include "bakers/tool/evaluate_nnao.h"
 
 #include <algorithm>
@@ -20,7 +21,7 @@ using namespace measure;
 using Json = nlohmann::ordered_json;
 using nook::nnao::Recording;
 
-// Returns the file's name without .nook, with a number if an earlier frame has the same name.
+// Returns the name of the file without .nook. If an earlier frame already has this name, appends a number.
 std::string frame_name(const std::filesystem::path& file, const std::vector<std::string>& taken) {
   const std::string stem = as_file_name(file.stem().string());
   std::string name = stem;

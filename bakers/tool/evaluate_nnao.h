@@ -1,4 +1,5 @@
-// Replays recorded frames. `nook evaluate nnao` runs this, and nook-lab adds its own methods.
+// Draws recorded frames again. `nook evaluate nnao` runs this function. nook-lab also runs it and adds its
+// own methods.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +14,7 @@
 
 namespace nook::tool {
 
-// The embedded network, and the network from --network.
+// The embedded network, and the network file that --network names.
 struct Networks {
   nook::nnao::Network embedded;
   std::vector<std::byte> file;  // empty: none
@@ -28,17 +29,18 @@ std::unique_ptr<platform::Context> make_context();
 
 struct FrameWords {
   std::vector<std::filesystem::path> files;
-  std::vector<std::string> methods;  // NAME or NAME:TAPS; empty: the library's rows and the oracle
-  std::vector<std::byte> network;    // a file of `nook train nnao` to measure as well; empty: none
-  std::filesystem::path images;      // empty: no pictures
+  std::vector<std::string> methods;  // NAME or NAME:TAPS; if empty, uses the library's rows and the oracle
+  std::vector<std::byte>
+      network;  // bytes of a network file from `nook train nnao`, which is measured as well; empty: none
+  std::filesystem::path images;  // empty: no pictures
   bool quiet = false;
 };
 
 // Returns additional methods for one frame.
 using FrameMethods = std::function<std::vector<measure::FrameMethod>(const GladGLContext&)>;
 
-// Returns a report with the rows of each frame, followed by rows of means. `further` may be null. Throws
-// ToolError that names the file.
+// Returns a report with the rows of each frame, followed by rows of means. `further` may be null. If a file
+// cannot be read, throws ToolError that names it.
 nlohmann::ordered_json evaluate_frames(platform::Context& context, const FrameWords& words,
                                        const FrameMethods& further);
 

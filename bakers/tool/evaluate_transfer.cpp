@@ -1,5 +1,5 @@
-// `nook evaluate transfer` compares baked radiance transfer, and simpler forms, with direct sums and path
-// tracing.
+// `nook evaluate transfer` compares baked radiance transfer with direct sums and with path tracing. It also
+// measures simpler forms.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -45,7 +45,8 @@ void check_mesh(const Options& o, const bake::SurfaceMesh& mesh, const transfer:
             "; bake the transfer again, or choose the same meshes as its bake (--mesh, --without)");
 }
 
-// The light transport of the truth. It is the same as in the file, with the material on the shape.
+// The light transport that the reference includes. It is the same as in the file, for the shape with its
+// material.
 struct TruthOf {
   TruthOf(const Options& o, const transfer::Transfer& baked, const material::MaterialTables& tables) {
     settings.bounces = o.truth_bounces.value_or(baked.bounces);

@@ -1,5 +1,5 @@
-// `nook evaluate world` measures how a character darkens its surroundings, against ray tracing and against
-// what engines use.
+// `nook evaluate world` measures how a character darkens its surroundings. It compares Nook and the methods
+// that engines use with ray tracing.
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -34,8 +34,8 @@ struct Options {
   std::size_t image_count = 3;
   bool composite = false, silhouettes = false;
   std::vector<std::filesystem::path> scenes;  // in addition to the built-in room
-  std::vector<float> scene_metres;            // unit of each scene
-  bake::MeshSelection scene_meshes;           // of all scenes
+  std::vector<float> scene_metres;            // metres per unit of each scene
+  bake::MeshSelection scene_meshes;           // the meshes to use, for all scenes
   measure::CompositeStudy rooms;
   std::vector<std::filesystem::path> lights;
 };
@@ -54,7 +54,8 @@ std::vector<measure::MeasuredRoom> rooms_of(const Options& options) {
   return rooms;
 }
 
-// Other measurements know no rooms, and would leave out the scenes without a word.
+// Throws if scenes are given without a measurement that uses rooms. The other measurements would silently
+// ignore the scenes.
 void require_rooms(const Options& options) {
   const bool has_rooms = options.composite || (!options.lights.empty() && !options.images.empty());
   if (!options.scenes.empty() && !has_rooms)

@@ -49,7 +49,7 @@ std::vector<NamedFile> named_files(const EvaluatedFiles& files) {
 }
 
 measure::BakedCharacter read_evaluated_files(const EvaluatedFiles& files, const CommonOptions& options) {
-  // The model may have been baked from only some of the meshes.
+  // Reads the model first, because it may have been baked from only some of the meshes.
   auto bytes = read_file(files.model);
   bake::ImportedCharacter imported = read_character(
       files.character, with_stored_meshes(files.reading, files.model, bytes, options), options);

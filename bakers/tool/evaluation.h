@@ -1,5 +1,5 @@
-// Runs any evaluation on the requested threads, and writes its report. Also reads the input files of
-// evaluations that measure a baked character.
+// Runs an evaluation of any kind on the requested threads, and writes its report. Also reads the input files
+// of evaluations that measure a baked character.
 #pragma once
 
 #include <filesystem>

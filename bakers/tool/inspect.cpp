@@ -29,7 +29,7 @@ struct Options {
 };
 
 struct Table {
-  const char* title;  // its key in the report
+  const char* title;  // the table's key in the report
   Row rows;
 };
 
@@ -71,7 +71,7 @@ std::vector<Table> tables_of_gltf(const Options& options) {
   return {{"rows", meshes}, {"skins", skins}, {"clips", clips}};
 }
 
-// Returns the bones, and how much automatic poses tear the skin.
+// Returns a table of the bones, and a table that says how much automatic poses tear the skin.
 std::vector<Table> tables_of_rig(const Options& options) {
   const bake::ImportedCharacter character = read_character(options.input, options.reading, options.common);
   const bake::RigCorrections corrections = read_rig_file(options.rig, character.mesh);

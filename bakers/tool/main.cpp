@@ -55,7 +55,8 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_report(nook::tool::Command(tool));
 }
 
-// Lists the comparisons with other methods in nook-lab, by the most similar command of `nook`.
+// Lists the words that only nook-lab accepts, for comparisons with other methods. They are grouped by the
+// most similar command of `nook`.
 nook::tool::ElsewhereWords lab_words() {
   nook::tool::ElsewhereWords lab{"nook-lab", "(built with -DNOOK_LAB=ON)", {}};
   lab.words["evaluate"] = {"grid"};

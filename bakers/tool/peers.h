@@ -52,7 +52,7 @@ class ProbePeers {
  public:
   virtual ~ProbePeers() = default;
   virtual void add_options(Command command) = 0;
-  // Returns ways to fit a probe that replace Nook's own.
+  // Returns the ways to fit a probe. They are measured in place of Nook's own list.
   virtual std::vector<bake::probe::ProbeMethod> methods(std::uint32_t lobes,
                                                         const bake::probe::Region& region) const = 0;
   // Returns rows for a map, which replace the rows of the methods. Returns null if the options request no

@@ -11,12 +11,13 @@
 namespace nook::tool {
 namespace {
 
-// If these features are turned off, glibc uses the SSE versions of its math functions. Level 3 needs no pin,
-// because glibc has no versions beyond AVX2 and FMA, and every processor of that level has these.
+// If these processor features are turned off, glibc uses the SSE versions of its math functions. x86-64 level
+// 3 does not need this, because glibc has no versions beyond AVX2 and FMA, and every processor of level 3 has
+// both.
 constexpr const char* tunables_variable = "GLIBC_TUNABLES";
 constexpr const char* tunables_of_v2 = "glibc.cpu.hwcaps=-AVX,-AVX2,-FMA,-FMA4";
 
-// The instruction set of all plans. Processors of other families have one set each.
+// The default instruction set of plans. Other processor families have only one instruction set each.
 #if defined(__x86_64__)
 constexpr const char* isa_of_plans = "x86-64-v3";
 #else
@@ -28,7 +29,7 @@ std::string environment(const char* name) {
   return value ? value : "";
 }
 
-// The first word is the command.
+// Returns the instruction set that the arguments ask for. The first word is the command.
 std::optional<std::string> asked_isa(const std::vector<std::string>& words) {
   if (words.empty() || (words[0] != "bake" && words[0] != "plan" && words[0] != "build")) return std::nullopt;
   std::optional<std::string> asked;
@@ -61,7 +62,7 @@ void pin_process(int argc, char** argv) {
   const std::vector<std::string> words(argv + (argc > 0), argv + argc);
   if (!pin_environment(asked_isa(words).value_or(before))) return;
   execv("/proc/self/exe", argv);
-  // Restores the environment. The process continues as before.
+  // The program could not be started again. Restores the environment and continues.
   before.empty() ? unsetenv(bake::isa_variable) : setenv(bake::isa_variable, before.c_str(), 1);
 }
 

@@ -8,9 +8,10 @@
 
 namespace nook::tool {
 
-// Call it first in main(). It returns if the arguments name no instruction set, or if the environment already
-// has it. It also returns if the program cannot be started again. In that case, run_bake() reports the
-// failure. `nook plan` and `nook build` pin themselves to x86-64-v3 if nothing names another one.
+// Call it first in main(). The function returns if the arguments do not name an instruction set, or if the
+// environment already contains the named one. It also returns if the program cannot be started again. In that
+// case, run_bake() reports the failure. `nook plan` and `nook build` pin themselves to x86-64-v3 if nothing
+// names another one.
 void pin_process(int argc, char** argv);
 
 // Sets the environment so that programs that this one starts are pinned and need not start themselves again.

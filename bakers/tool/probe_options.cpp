@@ -11,7 +11,7 @@
 namespace nook::tool {
 namespace {
 
-// In the order of probe::FitMethod, probe::Constraint and probe::Packing.
+// The names are in the order of the enums probe::FitMethod, probe::Constraint and probe::Packing.
 const std::vector<std::string> method_names{
     "naive",   "running-average", "running-average-original",  "running-average-non-negative",
     "moments", "least-squares",   "non-negative-least-squares"};

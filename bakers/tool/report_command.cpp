@@ -72,8 +72,8 @@ ReportSources sort_sources(const std::vector<std::filesystem::path>& files) {
   return sources;
 }
 
-// Throws ToolError (bad arguments) if a page of `kind` does not accept one of the sources. `need` says in
-// words what the page accepts.
+// Throws ToolError (bad arguments) if a page of `kind` does not accept one of the sources. `need` is the text
+// of the message that says what the page accepts.
 void require_sources(const ReportSources& sources, const TakenSources& taken, const std::string& kind,
                      const std::string& need) {
   const std::filesystem::path* extra = nullptr;

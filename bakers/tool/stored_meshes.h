@@ -1,4 +1,5 @@
-// Gets the mesh selection of a bake, for commands that read the bake's model and character again.
+// Finds out which meshes of a file were baked, for commands that read the baked model and its character
+// again.
 #pragma once
 
 #include <cstddef>
@@ -10,13 +11,14 @@
 
 namespace nook::tool {
 
-// Returns `reading` with the mesh selection from the recipe of `baked`. If `reading` already has a selection,
-// it is not changed. Prints the selection, unless the command is quiet.
+// Returns the import options `reading`, with the mesh selection from the recipe of the file `baked`. If
+// `reading` already contains a selection, it is returned unchanged. Prints the selection, unless the command
+// is quiet.
 bake::ImportOptions with_stored_meshes(bake::ImportOptions reading, const std::filesystem::path& baked,
                                        std::string_view recipe, const CommonOptions& common);
 
-// As above, with the recipe of the model in these bytes. If the bytes are not a model, nothing is changed.
-// The code that reads the model afterwards reports the error.
+// The same, but with the recipe of the model in these bytes. If the bytes are not a model, returns `reading`
+// unchanged. The code that reads the model afterwards reports the error.
 bake::ImportOptions with_stored_meshes(bake::ImportOptions reading, const std::filesystem::path& baked,
                                        std::span<const std::byte> model_bytes, const CommonOptions& common);
 

@@ -12,12 +12,12 @@ namespace nook::tool {
 // have three significant digits.
 std::string table_text(const nlohmann::ordered_json& rows);
 
-// Throws ToolError if the result is only shown in the table, but the program has no output stream. Call it
-// before the work.
+// Throws ToolError if the options ask for no report file and the program has no output stream, because the
+// table would then be lost. Call this before the work begins.
 void require_place_of_table(const CommonOptions& options);
 
-// Prints a table, unless the options contain --quiet. Set in_file if a file has the result too. Then nothing
-// is lost if there is no output stream. Throws if the table cannot be printed.
+// Prints a table, unless the options contain --quiet. Set in_file if a file also contains the result, so that
+// a missing output stream is not an error. Throws if the table cannot be printed.
 void print_table(const CommonOptions& options, const std::string& text, bool in_file);
 
 }  // namespace nook::tool

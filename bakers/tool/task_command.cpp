@@ -30,10 +30,11 @@ struct Options {
 };
 
 constexpr std::size_t shown_lines = 20;
-constexpr unsigned pause_s = 1;  // a full disk or a lost mount may recover
+constexpr unsigned pause_s =
+    1;  // a short pause before another attempt, because a full disk or a lost mount may recover
 
-// The log file. It is written line by line directly to its final path, so that it can be read while the bake
-// runs and after a kill. If there is no file, the bake uses this program's streams.
+// The log file. It is written line by line to its final path, so that it can be read while the bake runs, and
+// after the bake was killed. Without a log file, the bake writes to the streams of this program.
 class Log {
  public:
   explicit Log(const std::filesystem::path& path) : path_(path) {
@@ -82,7 +83,7 @@ std::string place_and_time() {
   return std::string(host) + ", " + time;
 }
 
-// Another attempt with the same arguments and inputs would fail in the same way.
+// Returns true if another attempt with the same arguments and inputs would fail in the same way.
 bool is_final(int code) {
   return code == exit_done || code == exit_bad_arguments || code == exit_bad_input || code == exit_bad_result;
 }

@@ -22,7 +22,7 @@ struct Options {
   CommonOptions common;
   EvaluatedFiles files;
   std::filesystem::path output;
-  std::size_t poses = 20;  // evenly picked from the clips
+  std::size_t poses = 20;  // picked at even intervals from the clips
   measure::BentStudy study{.points = 1500};
   bake::nnao::SpecularFitSettings fit;
 };

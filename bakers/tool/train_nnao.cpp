@@ -32,7 +32,7 @@ struct Options {
   DatasetSettings data;
   TrainingSettings training;
 
-  // Empty if the output is a device or a pipe, because no checkpoint is kept then.
+  // Path of the checkpoint. Empty if the output is a device or a pipe, because then no checkpoint is kept.
   std::string resume;
 };
 

@@ -39,7 +39,7 @@ Row describe(std::span<const std::byte> bytes) {
   if (found != 0)
     throw Failure(NOOK_ERROR_BAD_FILE,
                   "a .nook file of a kind that this version cannot inspect; use a newer version");
-  return describe_character(bytes);  // throws, with the reason, for bytes that are not a .nook file
+  return describe_character(bytes);  // if the bytes are not a .nook file, this throws with the reason
 }
 
 Row describe_briefly(std::span<const std::byte> bytes) {
@@ -59,7 +59,7 @@ Row describe_briefly(std::span<const std::byte> bytes) {
 
 namespace {
 
-// Adds the key of the bake, and whether this tool would make the file in the same way.
+// Adds the key of the bake, and says whether this tool would make the same file.
 void add_identity(Row& row, std::string_view recipe) {
   const std::optional<bake::BakeIdentity> identity = bake::stored_identity(recipe);
   row["key"] = identity ? Row(identity->key()) : Row();

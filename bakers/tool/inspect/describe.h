@@ -16,7 +16,7 @@ using Row = nlohmann::ordered_json;
 // does not know.
 Row describe(std::span<const std::byte> bytes);
 // A faster version for lists of many files. For characters and clips, it only checks the checksum of the file
-// and reads the recipe, which takes a hundredth of the time. Their rows have no sizes.
+// and reads the recipe. This takes a hundredth of the time, but the rows do not contain sizes.
 Row describe_briefly(std::span<const std::byte> bytes);
 Row describe_character(std::span<const std::byte> bytes);
 Row describe_clips(std::span<const std::byte> bytes);

@@ -15,7 +15,7 @@ constexpr const char* basis_names[] = {"spherical Gaussians", "spherical harmoni
 constexpr const char* domain_names[] = {"sphere", "hemisphere"};
 constexpr const char* packing_names[] = {"float", "half", "RGB9E5"};
 
-// Returns the target error of a grid's bake. Returns null for files of earlier versions.
+// Returns the target error that the bake of a grid was given. Returns null for files of earlier versions.
 Row asked_error(std::string_view recipe) {
   const std::optional<bake::BakeIdentity> identity = bake::stored_identity(recipe);
   if (!identity) return Row();

@@ -1,5 +1,5 @@
-// Handles the words of a bake, which are the arguments after `nook bake` on a command line. The options in a
-// manifest are the options of the command, so the command's own definitions check them.
+// Handles the words of a bake. These are the arguments that follow `nook bake` on a command line. A manifest
+// has the same options as the command, so the command's own definitions check them.
 #pragma once
 
 #include <string>
@@ -18,9 +18,9 @@ using Words = std::vector<std::string>;
 bool is_kind(const std::string& name);
 std::string names_of_kinds();
 
-// Returns an option of a manifest as words: --name=text, once for each text of a list. For false and null,
-// returns no words. Replaces {dir} and {stem} by the folder and the name of the file. Throws ToolError (bad
-// input).
+// Converts an option of a manifest to words of the form --name=text. A list gives one word for each of its
+// texts. The values false and null give no words. Replaces {dir} and {stem} by the folder and the name of the
+// file. Throws ToolError (bad input).
 Words option_words(const Manifest& manifest, const std::string& place, const Json& options,
                    const std::string& path);
 
@@ -29,8 +29,8 @@ Words option_words(const Manifest& manifest, const std::string& place, const Jso
 void check_options(const Manifest& manifest, const std::string& place, const std::string& kind,
                    const Json& options);
 
-// What the words of a bake alone tell: which files it reads, and whether its result can be cached. Throws
-// what the command throws.
+// The facts about a bake that follow from its words alone: which files it reads, and whether its result can
+// be cached. Making it throws what the command throws.
 struct BakeOutline {
   CommandFiles files;
   bool reads_images = false;

@@ -22,8 +22,8 @@ class FileTree {
   // The folder `skipped` is never read. It may be empty.
   FileTree(std::filesystem::path root, std::filesystem::path skipped);
 
-  // Returns the matching files, relative to the root and sorted. Follows a link to a folder if the pattern
-  // names the folder, but not below **.
+  // Returns the matching files, relative to the root and sorted. Links to folders are followed only if the
+  // pattern names the folder. They are not followed below **.
   std::vector<std::string> find(const std::string& pattern);
 
   // Returns every folder that was read, relative to the root. "" is the root. New files in these folders

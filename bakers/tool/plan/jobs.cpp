@@ -142,7 +142,7 @@ struct Builder {
   }
 };
 
-// Prepends "./" if necessary, because a name that begins with a dash would be read as an option.
+// If the path begins with a dash, puts "./" in front, because it would be read as an option otherwise.
 std::string as_argument(const std::string& path) {
   return path.starts_with('-') ? "./" + path : path;
 }

@@ -170,8 +170,8 @@ Rule checked_rule(const Manifest& m, const std::string& place, const Json& json)
   return rule;
 }
 
-// A rule without a bake is for characters, if no rule names another bake. Otherwise, the bake depends on the
-// matched files, and describe_job() checks the options later.
+// If no rule names a bake, a rule is for characters, and its options are checked here. Otherwise, the kind of
+// bake depends on all rules that match a file, and describe_job() checks the options later.
 void check_rule_options(const Manifest& m) {
   const bool all_characters = std::none_of(m.rules.begin(), m.rules.end(), [](const Rule& rule) {
     return rule.settings.contains("bake") && rule.settings["bake"] != "character";

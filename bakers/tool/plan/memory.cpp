@@ -95,8 +95,8 @@ std::string this_tool() {
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const Stamp stamp = stamp_of(program);
-  // Does not use the status-change time, because it changes with every new link to the program. Its size and
-  // modification time are enough.
+  // Identifies the program by its size and modification time. The time of the last status change is not used,
+  // because it changes with every new hard link to the program.
   return std::string(version_text) + " " + bake::embree_version() + " " + bake::isa_level_name() + " " +
          program.string() + " " + std::to_string(stamp.bytes) + " " + std::to_string(stamp.modified_ns);
 }

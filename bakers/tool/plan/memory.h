@@ -14,8 +14,8 @@
 
 namespace nook::tool::plan {
 
-// If a file does not change, its stamp stays equal. The stamp includes the time of the last status change
-// (ctime), because a copied file can have the modification time of its source.
+// As long as a file does not change, its stamp stays the same. The stamp includes the time of the last status
+// change (ctime), because a copied file can have the modification time of its source.
 struct Stamp {
   std::int64_t bytes = -1, modified_ns = 0, changed_ns = 0;  // -1: there is no file
 
@@ -56,8 +56,8 @@ std::string this_tool();
 // Returns true if every file still has its stamp.
 bool is_unchanged(const std::vector<StampedFile>& files);
 
-// Returns true if a file changed shortly before `began_ns` or later. Another change could then leave the
-// stamp equal, because file systems store times in steps of up to 10 ms.
+// Returns true if a file changed shortly before `began_ns` or later. File systems store times in steps of up
+// to 10 ms, so a second change within this time might not change the stamp.
 bool is_too_young(const std::vector<StampedFile>& files, std::int64_t began_ns);
 std::int64_t now_ns();
 

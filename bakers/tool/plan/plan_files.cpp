@@ -18,8 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The time of a key if its output is up to date. It is older than any output. It is not 0, because Ninja
-// treats 0 as a missing file.
+// The file time of a key whose output is up to date. It is older than any output. It is not 0, because Ninja
+// treats a file with time 0 as missing.
 constexpr std::int64_t old_ns = 1'000'000'000;
 
 // Returns the path of a job's file below DIR. Outputs are below the manifest's folder, so their relative
@@ -72,7 +72,8 @@ void make_folder(const fs::path& folder) {
   if (error) refuse_to_write(folder, error.message());
 }
 
-// If a bake waits, its key is not known yet. Then the key file contains a text that makes the bake run.
+// If a bake waits for another bake, its key is not known yet. Its key file then contains a text that makes
+// the bake run.
 std::string key_text(const JobState& state) {
   return (state.key.empty() ? std::string(name_of(state.state)) : state.key) + "\n";
 }
@@ -85,7 +86,7 @@ void write_one_key(const fs::path& path, const Job& job, const JobState& state) 
   if (runs && !is_new && key.modified_ns > output.modified_ns) return;
   if (!runs && !is_new && key.modified_ns <= old_ns) return;
   if (is_new) write_key(path, text);
-  // If the output was written by a clock that runs ahead, it would look newer than its key.
+  // If the output was written on a machine whose clock runs ahead, it would look newer than its key.
   if (runs)
     set_time(path, std::max(now_ns(), output.modified_ns + 1));
   else
@@ -117,8 +118,9 @@ std::string bake_command(const PlanPlaces& places, const Job& job, std::uint32_t
   return written;
 }
 
-// The inputs are not in a depfile, because Ninja's depfile reader ends names at quotes. A removed file must
-// not be an error, so each input is also the output of a rule without a command.
+// The inputs are listed here and not in a depfile, because Ninja cuts off names in depfiles at quotes. If an
+// input has been removed, Ninja must not report an error. Each input is therefore also the output of a rule
+// without a command.
 std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs,
                        const std::vector<fs::path>& read) {
   std::string inputs;

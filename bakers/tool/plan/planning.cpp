@@ -29,7 +29,8 @@ fs::path absolute_path(const fs::path& path) {
   return path.empty() ? path : fs::absolute(path).lexically_normal();
 }
 
-// If many bakes run, they share the cores. A single bake gets all cores.
+// Returns the number of threads for each bake. If many bakes run, they share the cores. A single bake gets
+// all cores.
 std::uint32_t shared_threads(std::size_t bakes) {
   const std::size_t cores = std::max(1u, std::thread::hardware_concurrency());
   return std::uint32_t(std::max<std::size_t>(1, cores / std::clamp<std::size_t>(bakes, 1, cores)));
@@ -84,7 +85,8 @@ void write(const fs::path& path, const std::string& text) {
   platform::OutputFile(path, file_events(true)).commit(text);
 }
 
-// If the content is equal, only sets the file's time to now, which does not wait for the disk.
+// Writes the text. If the file already has this content, only sets the file's time to now, which is faster
+// because it does not wait for the disk.
 void renew(const fs::path& path, const std::string& text) {
   std::error_code error;
   if (text_in(path) != text)

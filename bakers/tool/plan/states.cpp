@@ -72,7 +72,8 @@ std::string output_identity(const Work& work, std::size_t i) {
   return text;
 }
 
-// Returns true if the cache has the result. Copies it like a bake writes it, the report first.
+// Returns true if the cache has the result. Copies it in the same order as a bake writes it, with the report
+// first.
 bool take_from_cache(const Work& work, std::size_t i, const std::string& identity) {
   const Job& job = work.jobs[i];
   if (!work.options.cache || !job.outline.is_cacheable) return false;
@@ -117,7 +118,8 @@ void examine(const Work& work, std::size_t i) {
   if (const Job* const need = first_unready(work, i)) {
     state.state = State::waits;
     state.reason = "after " + need->output;
-    // The next plan will try again. The plan still depends on the files.
+    // The next plan will try again. The files that cannot be read stay in the list of files that the plan
+    // depends on.
     state.read = stamped(files_read(work.jobs[i].outline.files, work.jobs[i].outline.reads_images));
     output_identity(work, i);
     const auto known = work.known.bakes.find(work.jobs[i].output);

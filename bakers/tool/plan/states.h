@@ -16,7 +16,7 @@ enum class State : std::uint8_t {
   up_to_date,  // the output's recipe has the key of the bake
   from_cache,  // the cache has the result; it is copied, except in a dry run
   missing,     // the output has to be baked
-  waits,       // reads the output of another bake, which must run first; so the key is not known yet
+  waits,       // the bake reads the output of another bake that must run first, so its key is not known yet
   unreadable   // the inputs cannot be read; the bake will fail with a message
 };
 const char* name_of(State state);

@@ -19,7 +19,7 @@ bool is_key(const std::string& text) {
   return text.size() == 64 && text.find_first_not_of("0123456789abcdef") == std::string::npos;
 }
 
-// Removes an extension. Returns false if the name has another extension.
+// Removes the extension from the name. Returns false if the name does not have this extension.
 bool take_end(std::string& name, std::string_view extension) {
   if (name.size() <= extension.size() || !name.ends_with(extension)) return false;
   name.resize(name.size() - extension.size());
@@ -66,7 +66,7 @@ void add_folder(const fs::path& path, const std::string& name, FoundAssets& foun
   if (error) found.faults[name] = error.message();
 }
 
-// The log of a plan: `nook plan` keeps the log of the model ROOT/MODEL as ROOT/BUILD/logs/MODEL.log.
+// A log that `nook plan` keeps. The log of the model ROOT/MODEL is ROOT/BUILD/logs/MODEL.log.
 struct PlannedLog {
   std::string name;    // name of the log as an asset
   std::string folder;  // ROOT/BUILD
@@ -92,8 +92,8 @@ std::string parent_of(std::string folder) {
   return folder;
 }
 
-// Returns ROOT for each folder of a plan. It is the nearest parent folder with a model for one of the plan's
-// logs, or else the direct parent folder.
+// Returns ROOT for each folder of a plan. This is the nearest parent folder that contains the model named in
+// one of the plan's logs. If no parent folder contains such a model, it is the direct parent folder.
 std::map<std::string, std::string> roots_of(const std::vector<PlannedLog>& logs, const FoundAssets& found) {
   std::map<std::string, std::string> roots;
   for (const PlannedLog& log : logs) {

@@ -1,4 +1,5 @@
-// Finds the baked files below a folder, and the reports, logs and unfinished files beside them.
+// Finds all baked files in a folder and its subfolders, and the reports, logs and unfinished files that
+// belong to them.
 #pragma once
 
 #include <filesystem>
@@ -14,9 +15,10 @@ struct FoundAssets {
   std::map<std::string, std::string> faults;  // subfolders that cannot be read, with the reason
 };
 
-// A log belongs to the model beside it. A log from `nook plan` belongs to the model that it is named after.
-// Leaves out names that begin with a dot, and the entries of a cache, which are named by keys. Follows links
-// to files but not to folders. Throws ToolError (bad input) if `folder` cannot be read.
+// A log belongs to the model with the same name in the same folder. A log from `nook plan` belongs to the
+// model that it is named after. Names that begin with a dot are left out. So are the entries of a cache,
+// whose names are keys. Follows links to files but not to folders. Throws ToolError (bad input) if `folder`
+// cannot be read.
 FoundAssets find_assets(const std::filesystem::path& folder);
 
 }  // namespace nook::tool

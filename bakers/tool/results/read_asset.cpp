@@ -124,7 +124,7 @@ class Reader {
     }
   }
 
-  // JSON of another kind is not a trace of a bake.
+  // A JSON file that is not a report does not show that a bake ran.
   void read_report() {
     if (files_.report.empty()) return;
     std::error_code error;
@@ -144,7 +144,8 @@ class Reader {
     end_ = end_of_log({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   }
 
-  // If a report has another size, it belongs to another bake and must not be used to judge this model.
+  // If the size in the report differs from the model's size, the report belongs to another bake and must not
+  // be used to judge this model.
   void drop_other_report() {
     if (report_.is_null() || reported_bytes(report_).value_or(asset_.bytes) == asset_.bytes) return;
     add(asset_.notes, "its report belongs to another bake");

@@ -97,8 +97,8 @@ void add_faults(const FoundAssets& found, std::vector<report::Asset>& assets) {
   }
 }
 
-// Reads the page that the new one is compared with. The file at the output path may be something else than a
-// page.
+// Reads the page that the new page is compared with. Returns nothing if the file at the output path is not
+// such a page.
 std::optional<report::LastPage> last_page(const ReportAllOptions& options, const fs::path& output) {
   const bool is_named = !options.before.empty();
   const fs::path& path = is_named ? options.before : output;
@@ -119,7 +119,7 @@ void require_places(const ReportAllOptions& options, const fs::path& output, con
                     const FoundAssets& found) {
   CommandFiles files{{}, {{"-o", output}, {"--report", common.report}}, {}};
   for (const auto& [name, asset] : found.assets) {
-    // JSON without a model may be the output of an earlier --report.
+    // A JSON file without a model may have been written by an earlier --report.
     const bool is_free = asset.model.empty() && asset.report == common.report;
     for (const fs::path* path : {&asset.model, &asset.report, &asset.log})
       if (!path->empty() && !(is_free && path == &asset.report))
@@ -155,7 +155,7 @@ void report_all(const ReportAllOptions& options, const CommonOptions& common) {
   const std::optional<report::LastPage> last = last_page(options, output);
 
   report::Overview overview;
-  // "." would not tell a later reader of the page which folder it is.
+  // Uses the absolute path, because "." would not tell a later reader of the page which folder it was.
   std::error_code unknown;
   const fs::path whole = fs::absolute(options.folder, unknown).lexically_normal();
   overview.folder = (unknown ? options.folder : whole).string();

@@ -1,4 +1,4 @@
-// Finds out whether a task of a farm failed, from the files that it left beside its model.
+// Finds out whether a task on a farm failed, from the files that the task left beside its model.
 #pragma once
 
 #include <filesystem>
@@ -20,16 +20,16 @@ struct AssetFiles {
 struct TaskEnd {
   std::optional<int> exit_code;  // none: the task still runs, was killed, or another program wrote the log
   std::string words;             // the last line that the task itself wrote
-  bool is_of_task = false;  // true if `nook task` wrote the log; unless the task was killed, such a log has
-                            // an end
+  bool is_of_task =
+      false;  // true if `nook task` wrote the log; such a log always has an end, unless the task was killed
 };
 
 // Reads the end of a log. Its last line is "exit code N".
 TaskEnd end_of_log(std::string_view log);
 
-// Returns why a task failed, or nothing if it did not fail. It failed if there is a report, a log or a part
-// but no model. It also failed if the log ends with a failure, or if a log of `nook task` has no end. `end`
-// is the end of the log, if there is one.
+// Returns why a task failed, or nothing if it did not fail. A task failed if there is a report, a log or an
+// unfinished file, but no model. It also failed if the log ends with a failure, or if `nook task` wrote the
+// log and the log has no end. `end` is the end of the log, if there is one.
 std::optional<std::string> failure_of(const AssetFiles& files, const std::optional<TaskEnd>& end);
 
 }  // namespace nook::tool
