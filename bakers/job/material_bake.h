@@ -27,8 +27,8 @@ struct MesoSource {
   std::optional<material::MesoSurface> tile;  // if set, replaces `meso`
   std::uint32_t views = 100,
                 lights = 0;  // counts of directions; if `lights` is 0, there are as many lights as views
-  float max_tilt_deg =
-      material::default_max_tilt_deg;  // largest angle between a direction and the normal, degrees
+  // Largest angle between a direction and the normal, degrees.
+  float max_tilt_deg = material::default_max_tilt_deg;
   material::TraceSettings trace;
 };
 

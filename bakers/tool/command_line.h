@@ -47,8 +47,8 @@ class Option {
 
   Option required() const;
   Option check(const Check& check) const;
-  Option check(const std::function<std::string(const std::string&)>& fault)
-      const;  // returns what is wrong, or nothing
+  // Returns what is wrong, or nothing.
+  Option check(const std::function<std::string(const std::string&)>& fault) const;
   // Calls `seen` for each text of the option.
   Option each(const std::function<void(std::string)>& seen) const;
   Option capture_default_str() const;  // the help text shows the variable's value as the default

@@ -30,8 +30,8 @@ std::unique_ptr<platform::Context> make_context();
 struct FrameWords {
   std::vector<std::filesystem::path> files;
   std::vector<std::string> methods;  // NAME or NAME:TAPS; if empty, uses the library's rows and the oracle
-  std::vector<std::byte>
-      network;  // bytes of a network file from `nook train nnao`, which is measured as well; empty: none
+  // Bytes of a network file from `nook train nnao`, which is measured as well; empty: none.
+  std::vector<std::byte> network;
   std::filesystem::path images;  // empty: no pictures
   bool quiet = false;
 };

@@ -30,8 +30,8 @@ struct Options {
 };
 
 constexpr std::size_t shown_lines = 20;
-constexpr unsigned pause_s =
-    1;  // a short pause before another attempt, because a full disk or a lost mount may recover
+// A short pause before another attempt, because a full disk or a lost mount may recover.
+constexpr unsigned pause_s = 1;
 
 // The log file. It is written line by line to its final path, so that it can be read while the bake runs, and
 // after the bake was killed. Without a log file, the bake writes to the streams of this program.

@@ -30,8 +30,8 @@ struct Size {
   // there.
   std::optional<Loop> loop, loop_on_vega10;
   bool has_relief = false;
-  std::uint32_t packed_modes =
-      0;  // number of light modes in compressed texture blocks; if not 0, the VOTF is compressed too
+  // Number of light modes in compressed texture blocks; if not 0, the VOTF is compressed too.
+  std::uint32_t packed_modes = 0;
 };
 // The sizes of fiber and roughhole at the paper's ranks, as in docs/lab/material_decoding.md, and of weave.
 const Size sizes[] = {

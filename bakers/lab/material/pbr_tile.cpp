@@ -64,7 +64,7 @@ float raw_at(const RawMaterial& raw, const Taps& taps, std::size_t row, std::siz
   return mean_of(taps, &raw.btf[(row * raw.views.size() + view) * raw.texels()]);
 }
 
-// The observed radiance of a texel for one view and one light.
+// The radiance that a texel has in one view under one light.
 struct Observation {
   Vec3 view, light, value;
 };

@@ -35,8 +35,8 @@ struct Sweep {
   struct Series {
     bake::material::Method method;
     std::uint32_t mixture;
-    std::vector<bake::material::MethodRow>
-        rows;  // one row per rank; ranks that give fewer clusters than the mixture needs are left out
+    // One row per rank; ranks that give fewer clusters than the mixture needs are left out.
+    std::vector<bake::material::MethodRow> rows;
     std::vector<std::uint32_t> ranks;
   };
   std::vector<Series> series;  // N-SVD, CTA, K-CTA with K = 2, 3, 4

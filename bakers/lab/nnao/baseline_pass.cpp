@@ -13,9 +13,9 @@ namespace {
 
 constexpr int hilbert_side = 64;
 
-// Returns the distance along the Hilbert curve from its start to a cell (D. Hilbert, 1891). The loop goes
-// from the largest quadrants to the smallest. It rotates each quadrant so that the curve enters it where the
-// curve left the previous one.
+// Returns the distance from the start of the Hilbert curve to a cell, measured along the curve (D. Hilbert,
+// 1891). The loop goes from the largest quadrants to the smallest. It rotates each quadrant so that the curve
+// enters it where the curve left the previous one.
 float hilbert_place(int x, int y) {
   int place = 0;
   for (int half = hilbert_side / 2; half > 0; half /= 2) {
@@ -204,7 +204,8 @@ void BaselinePass::draw_raw(const BaselineMethod& method, const GpuView& view, c
   gl_.Uniform1f(shader.at("power"), tuning.power);
   gl_.Uniform1i(shader.at("groups"), grid.groups);
   gl_.Uniform1i(shader.at("steps"), grid.steps);
-  // A baseline's shader has one of these uniforms. The location of the others is -1, which OpenGL ignores.
+  // The shader of a baseline has at most one of these uniforms. The locations of the others are -1, and
+  // OpenGL ignores -1.
   for (const char* shape : {"bias", "falloff", "thickness", "threshold"})
     gl_.Uniform1f(shader.at(shape), tuning.shape);
   gl_.Uniform2f(shader.at("bias_turn"), std::cos(tuning.shape), std::sin(tuning.shape));

@@ -1,4 +1,4 @@
-// Draws the baselines, and denoises them.
+// Draws the AO of the baselines and denoises it.
 #pragma once
 
 #include <map>
@@ -31,8 +31,8 @@ class DepthLevels {
   DepthLevels(const DepthLevels&) = delete;
   DepthLevels& operator=(const DepthLevels&) = delete;
 
-  // radius_m is XeGTAO's tuned radius. falloff is its falloff range, as a share of the radius. Bind a vertex
-  // array before the call.
+  // `radius_m` is the tuned radius of XeGTAO. `falloff` is its falloff range, as a fraction of the radius.
+  // Bind a vertex array before the call.
   void draw(const measure::GpuView& view, float radius_m, float falloff);
   GLuint texture() const { return texture_; }
 
@@ -56,8 +56,8 @@ class EdgeDenoiser {
   void find_edges(const measure::GpuView& view);
   const measure::GpuImage& edge_image() const { return edges_; }
 
-  // Runs `passes` passes, multiplies the result by `scale`, and returns the texture (R8) that holds it. Call
-  // find_edges and bind a vertex array before.
+  // Runs the denoiser `passes` times, multiplies the result by `scale`, and returns the texture (R8) that
+  // holds it. Before the call, call find_edges and bind a vertex array.
   GLuint denoise(GLuint ao, int passes, float scale);
 
  private:
@@ -74,11 +74,11 @@ class BaselinePass {
   BaselinePass(const GladGLContext& gl, int width, int height);
   ~BaselinePass();
 
-  // Returns the texture (R8) with the AO, which is valid until the next call. If `denoised` is true, the
-  // denoiser of the method's tuning runs too.
+  // Returns the texture (R8) with the AO. Its content is valid until the next call. If `denoised` is true,
+  // also runs the denoiser that the method's tuning names.
   GLuint draw(const BaselineMethod& method, const measure::GpuView& view, const measure::AoRequest& request,
               bool denoised);
-  // Bent normals that XeGTAO computes before its denoiser, in view space, with packed edges.
+  // The bent normals that XeGTAO computes before denoising, in view space, and the packed edges.
   struct BentImage {
     std::vector<Vec3> bent_normal;  // zero for pixels without a surface
     std::vector<float> edges;
@@ -95,7 +95,7 @@ class BaselinePass {
                    const measure::AoRequest& request) const;
   void draw_raw(const BaselineMethod& method, const measure::GpuView& view,
                 const measure::AoRequest& request);
-  // Draws XeGTAO. It also writes the edges, and its AO may exceed 1, as its own denoiser expects.
+  // Draws XeGTAO and its edges. The AO may exceed 1, because XeGTAO's own denoiser expects such values.
   void draw_xegtao(const measure::GpuProgram& shader, const BaselineMethod& method,
                    const measure::GpuView& view, const measure::AoRequest& request, float scale,
                    GLuint framebuffer);
@@ -107,8 +107,8 @@ class BaselinePass {
   const GladGLContext& gl_;
   int width_, height_;
   GLuint vertex_array_ = 0, with_edges_ = 0;
-  std::map<std::string, std::unique_ptr<measure::GpuProgram>>
-      programs_;  // by path and defines, made on first use
+  // Compiled programs by path and defines; each is compiled on first use.
+  std::map<std::string, std::unique_ptr<measure::GpuProgram>> programs_;
   measure::GpuProgram blur_, box_, disc_, gaussian_;
   measure::GpuImage images_[2];
   EdgeDenoiser edge_denoiser_;

@@ -29,7 +29,7 @@ Edges unpacked(float packed) {
   return {float(bits >> 6 & 3) / 3, float(bits >> 4 & 3) / 3, float(bits >> 2 & 3) / 3, float(bits & 3) / 3};
 }
 
-// An image that returns the nearest pixel for coordinates outside its border.
+// An image that can be read at any coordinates. Outside the image, it returns the nearest pixel.
 struct Clamped {
   std::span<const Vec3> vectors;
   std::span<const float> edges;
@@ -77,8 +77,8 @@ std::vector<Vec3> edge_average(std::span<const Vec3> vectors, std::span<const fl
 
 namespace {
 
-// The result of a method for a view: a bent normal for each pixel, and AO if the method has AO that lighting
-// can use.
+// The result of a method for a view. It has a bent normal for each pixel. It also has AO if the method
+// computes AO that lighting can use.
 struct BentView {
   std::vector<Vec3> bent_normal;
   std::vector<float> ao;
@@ -91,7 +91,7 @@ struct BentMethod {
   std::function<BentView(std::size_t view)> draw;
 };
 
-// Sums over the pixels of one source.
+// Sums over the pixels of the views of one source.
 struct BentSums {
   std::vector<double> degrees;
   std::array<double, measured_roughness.size()> fitted{}, lagarde{};

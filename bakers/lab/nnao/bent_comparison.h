@@ -15,18 +15,18 @@
 
 namespace nook::lab {
 
-// Runs one pass of XeGTAO's edge-aware denoiser over vectors on the CPU, with the weights of
-// shaders/denoise.glsl. `vectors` is stored row by row. `packed_edges` are values in [0, 1], packed by
-// shaders/edges.glsl. `last` means that no further pass follows; the pixel itself then gets more weight.
-// Result vectors have unit length or are zero.
+// Runs one pass of XeGTAO's edge-aware denoiser on an image of vectors, on the CPU. The weights are those of
+// shaders/denoise.glsl. `vectors` is stored row by row. `packed_edges` has values in [0, 1], packed as in
+// shaders/edges.glsl. Set `last` for the last pass, in which the pixel itself has more weight. The resulting
+// vectors have unit length or are zero.
 std::vector<Vec3> edge_average(std::span<const Vec3> vectors, std::span<const float> packed_edges,
                                std::uint32_t width, bool last);
 
-// Only pixels whose reference AO is below this value count for angles and errors. Elsewhere the surface
-// normal is good enough.
+// Angles and errors are measured only at pixels whose reference AO is below this value. Elsewhere, the
+// surface normal is good enough.
 inline constexpr float bent_below = 0.7f;
 
-// Returns the rows of each source, and their means. The columns are
+// Returns the rows of each source, and the means over the sources. The columns are
 //   method, taps, denoiser, scene
 //   angle           degrees, the median where the reference's AO is below bent_below
 //   angle_mean      degrees

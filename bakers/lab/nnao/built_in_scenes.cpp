@@ -27,7 +27,7 @@ void add_picket_fence(TriangleSoup& soup, float x, float z, float length) {
 void add_wire_mesh(TriangleSoup& soup, float x, float z, float length) {
   const float height = 1.1f;
   for (float along = -height; along < length; along += 0.09f) {
-    // Where the diagonal meets the left and right ends of the frame.
+    // The positions at which the diagonal meets the left and right ends of the frame.
     const float low = along < 0 ? -along : 0, high = along + height > length ? length - along : height;
     add_rod(soup, {x + along + low, low, z}, {x + along + high, high, z}, 0.004f, 5);
     add_rod(soup, {x + along + low, height - low, z + 0.008f}, {x + along + high, height - high, z + 0.008f},
@@ -45,7 +45,7 @@ void add_bentwood_chair(TriangleSoup& soup, Vec3 foot, float turn) {
     add_cylinder(soup, at(0.25f * c, 0, 0.25f * s), at(0.17f * c, 0.44f, 0.17f * s), 0.011f, 0.016f, 10);
   }
   add_torus(soup, standing_frame(at(0, 0.22f, 0), 0), 0.205f, 0.009f, 28);
-  // The back consists of two hoops.
+  // The back of the chair consists of two hoops.
   for (const float size : {1.0f, 0.62f}) {
     Vec3 last = at(-0.19f * size, 0.46f, -0.16f);
     for (int i = 1; i <= 12; ++i) {

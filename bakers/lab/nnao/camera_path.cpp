@@ -31,7 +31,7 @@ Camera moved(Camera camera, Vec3 along_vs) {
   return camera;
 }
 
-// Returns the camera's motion from one frame to the previous one, in view space.
+// Returns the motion of the camera from a frame back to the frame before it, in view space.
 Vec3 step_back(const bake::RayScene& rays, const TracedView& view, const PathSettings& settings) {
   const Mat3x4& world = view.camera.world_from_view;
   const float length = settings.step_px * std::abs(view.camera.rays.x_scale) * median_depth(view);
@@ -41,19 +41,19 @@ Vec3 step_back(const bake::RayScene& rays, const TracedView& view, const PathSet
   for (const float side : {1.0f, -1.0f}) {
     const Vec3 back{side * length, 0, settings.forward * length};
     const Vec3 whole = float(settings.frames - 1) * back;
-    // Finds the distance to a wall. The unit is the length of the whole path from the view to the oldest
-    // frame.
+    // Finds the distance to the nearest wall in the direction of the path. The unit is the length of the
+    // whole path, from the view to the oldest frame.
     const float room = length > 0 ? rays.nearest(eye, transform_vector(world, whole)).distance : 0.0f;
     if (room <= best_room) continue;
     best_room = room;
-    // Uses at most half of this distance, because a camera inside a wall sees nothing.
+    // The path uses at most half of this distance, so that the camera does not get into the wall.
     best = std::min(1.0f, 0.5f * room) * back;
   }
   return best;
 }
 
-// Returns the sum of the depth differences to a neighbour along x and along y. Of the two neighbours on an
-// axis, the one with the smaller difference counts.
+// Returns the depth difference to a neighbour along x plus the difference to a neighbour along y. On each
+// axis, the neighbour with the smaller difference is used.
 float depth_slope(const TracedView& view, std::uint32_t x, std::uint32_t y) {
   const std::uint32_t width = view.camera.width, height = view.camera.height;
   const float depth = view.depth[std::size_t(y) * width + x];
@@ -68,11 +68,12 @@ float depth_slope(const TracedView& view, std::uint32_t x, std::uint32_t y) {
   return (std::isfinite(across) ? across : 0) + (std::isfinite(up) ? up : 0);
 }
 
-// Depths on one surface may differ by the slope plus this share of the depth. The share allows for curvature.
+// Two depths count as the same surface if they differ by at most the slope plus this fraction of the depth.
+// The fraction allows for curved surfaces.
 constexpr float depth_share = 0.005f;
 
-// The smallest total weight of matching pixels. With less, the position only grazes the border of the
-// surface.
+// The smallest total weight of matching pixels that is accepted. If it is smaller, the position only touches
+// the border of the surface.
 constexpr float smallest_share = 0.05f;
 
 EarlierPixels pixels_at(const TracedView& before, Vec3 position, float tolerance) {

@@ -57,7 +57,8 @@ double BorderBias::rim() const {
 namespace {
 
 constexpr float dark_below = 0.35f;
-constexpr double counting_share = 0.005;  // smallest share of the pixels; the mean of fewer is noise
+// Smallest fraction of the pixels that a bin needs; the mean of fewer pixels is mostly noise.
+constexpr double counting_share = 0.005;
 
 }  // namespace
 

@@ -11,8 +11,8 @@
 namespace nook::lab {
 
 inline constexpr std::array<const char*, 4> border_names{"left", "right", "bottom", "top"};
-// The outer distances of the bands along each border, in pixels. Each band begins where the previous one
-// ends.
+// Bands run along each border of the image. These are the distances from the border at which the bands end,
+// in pixels. Each band begins where the previous band ends.
 inline constexpr std::array<std::uint32_t, 3> border_bands_px{5, 20, 60};
 
 // Measures whether AO images have a dark or bright rim. It computes the mean error as a function of the
@@ -39,19 +39,19 @@ class BorderBias {
   measure::Mean rim_, inside_;
 };
 
-// Measures the mean error where the truth is dark, and the mean error as a function of the image's AO. You
-// can add any number of images. Only pixels with a surface count.
+// Measures the mean error where the reference is dark, and the mean error as a function of the AO in the
+// image. You can add any number of images. Only pixels with a surface count.
 class Calibration {
  public:
   // Adds an image with one value for each pixel. A pixel counts if its depth is finite.
   void add(std::span<const float> ao, std::span<const float> truth, std::span<const float> depth);
   void add(const Calibration& other);
 
-  // Returns the mean of AO - truth over the pixels whose truth is below 0.35, or 0 if there are none. A
-  // positive result means that dark parts are too bright.
+  // Returns the mean of AO - truth over the pixels whose true AO is below 0.35, or 0 if there are none. A
+  // positive result means that dark areas are too bright.
   double dark_bias() const;
-  // Divides the AO range into ten equal bins, and returns the largest magnitude of a bin's mean of AO -
-  // truth. Only bins with at least 0.5 % of the pixels count.
+  // Divides the range of AO into ten equal bins and computes the mean of AO - truth in each bin. Returns the
+  // largest absolute value of these means. Bins with fewer than 0.5 % of the pixels are ignored.
   double largest_bias() const;
 
  private:

@@ -41,8 +41,8 @@ std::vector<MeasuredView> tuning_views(std::uint64_t seed,
     TruthSettings settings;
     settings.width = 320;
     settings.height = 180;
-    // Few rays are enough, because the noise of the reference adds the same amount to the error of every
-    // tuning.
+    // Few rays are enough for tuning, because the noise of the reference increases the error of all
+    // candidates by the same amount.
     settings.rays = 32;
     settings.radius = radii[(i + i / family_count) % 3];
     const Camera camera = place_camera(rays, scene, random, settings.width, settings.height);

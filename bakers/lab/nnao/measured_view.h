@@ -1,4 +1,4 @@
-// Views of scenes, with the references that methods are compared with.
+// Views of scenes, with the ray-traced references that methods are compared with.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,9 @@ MeasuredView measure_view(const bake::RayScene& rays, const std::string& scene,
                           const bake::nnao::Camera& camera, const TruthSettings& settings,
                           const TruthStore& store = {});
 
-// Returns the 24 views on which baselines are tuned. Each shows a different training scene. The scene
-// families, and the radii of 0.25, 0.5 and 1 metre, are used in turn. If `progress` returns false, the
-// function throws Failure(CANCELLED).
+// Returns the 24 views on which baselines are tuned. Each shows a different training scene. The views use the
+// scene families in turn, and also the radii 0.25, 0.5 and 1 metre. If `progress` returns false, the function
+// throws Failure(CANCELLED).
 std::vector<MeasuredView> tuning_views(std::uint64_t seed,
                                        const std::function<bool(std::size_t, std::size_t)>& progress);
 

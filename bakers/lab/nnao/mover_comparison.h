@@ -1,5 +1,5 @@
-// Measures temporally accumulated AO of a scene in which a skinned body moves. The report compares it with
-// ray tracing and with the AO of single frames.
+// Measures temporally accumulated AO in scenes in which a skinned body moves. The report compares it with ray
+// tracing, and with AO that is computed from single frames.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace nook::lab {
 
-// Number of frames of a sequence, and of the longest temporal mean.
+// Number of frames in a sequence. It is also the largest number of frames that are averaged.
 inline constexpr std::size_t mover_frames = 8;
 
 // How a pass uses earlier frames.
@@ -31,7 +31,8 @@ const char* mover_pass_name(MoverPass pass);
 struct MoverError {
   int taps = 0;
   MoverPass pass = MoverPass::single;
-  std::array<double, mover_part_count> mse{};  // in the last frame, by MoverPart; 0 for a part without pixels
+  // Mean squared error in the last frame, indexed by MoverPart; 0 for a part without pixels.
+  std::array<double, mover_part_count> mse{};
   std::array<double, mover_part_count> bias{};  // mean of AO - reference
 };
 
@@ -47,7 +48,8 @@ struct MeasuredMover {
 MeasuredMover measure_mover(platform::Context& context, const MoverView& view, measure::AoRequest request,
                             std::vector<std::vector<float>>* images);
 
-// A part with fewer pixels in a view is ignored there, because its error would be mostly noise.
+// If a part has fewer pixels than this in a view, it is ignored in this view, because its error would be
+// mostly noise.
 inline constexpr std::size_t fewest_part_pixels = 100;
 
 // Returns an object with three members. `rows` has the means over the views of each character, and over all

@@ -48,7 +48,7 @@ std::size_t walking_clip(const bake::ImportedCharacter& character, const std::st
 
 namespace {
 
-// A traced frame. For each pixel, it stores which point of the body the pixel shows.
+// A traced frame. For each pixel, it stores the point of the body that the pixel shows.
 struct MoverFrame {
   static constexpr std::uint32_t none = ~0u;
 

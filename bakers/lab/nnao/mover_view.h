@@ -20,12 +20,14 @@ struct MovingBody {
 struct WalkSettings {
   std::size_t frames = 8;
   float frame_s = 1.0f / 30;  // seconds between frames
-  float phase = 0;            // position of the sequence in the clip, 0 to 1; at 1 both end together
-  float heading = 0;          // rotation about the vertical axis, radians; at 0 the body looks along +z
-  float speed_mps = 1.4f;     // along its heading, metres per second
+  // Position of the sequence in the clip, 0 to 1; at 1, the sequence ends together with the clip.
+  float phase = 0;
+  float heading = 0;       // rotation about the vertical axis, radians; at 0 the body looks along +z
+  float speed_mps = 1.4f;  // walking speed along the heading, metres per second
 };
 
-// Poses the character by its clip. In the last frame, the character stands at the world's origin.
+// Poses the character by the clip and moves it along its heading. In the last frame, it is at the origin of
+// the world.
 MovingBody walking_body(const bake::ImportedCharacter& character, std::size_t clip,
                         const WalkSettings& settings);
 
@@ -38,8 +40,8 @@ std::size_t walking_clip(const bake::ImportedCharacter& character, const std::st
 enum class MoverPart : std::uint8_t {
   sky,
   mover,      // the body
-  uncovered,  // hidden by the body in a recent frame
-  beside,  // within the AO radius of a vertex of the body, in this or a recent frame, so that the AO changes
+  uncovered,  // the body hid this surface in a recent frame
+  beside,  // the body is or was nearer than the AO radius, in this or a recent frame, so that the AO changes
   elsewhere
 };
 inline constexpr std::size_t mover_part_count = 5;
@@ -49,8 +51,9 @@ inline constexpr std::size_t recent_frames = 3;
 
 struct MoverView {
   MeasuredView measured;  // the last frame with its reference; the earlier frames are its path
-  // For each frame and pixel, how far its surface has moved since the previous frame: pixels to the right,
-  // and pixels up. Both values are 0 in the first frame and for the sky.
+  // The motion vectors of each frame. Each pixel has two values: how far its surface has moved since the
+  // previous frame, in pixels to the right and in pixels up. Both values are 0 in the first frame and for the
+  // sky.
   std::vector<std::vector<float>> motion;
   std::vector<MoverPart> part;  // for each pixel of the last frame
 };

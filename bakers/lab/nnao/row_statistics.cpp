@@ -44,8 +44,8 @@ double drawn_mean(const std::vector<double>& values, bake::Random& random) {
   return sum / double(values.size());
 }
 
-// Resamples the views `draws` times, and returns the sorted means over the sources. If `sources_too` is true,
-// it resamples the sources as well.
+// Resamples the views `draws` times. Returns the mean over the sources for each draw, sorted. If
+// `sources_too` is true, also resamples the sources.
 std::vector<double> drawn_means(const std::vector<Source>& sources, bool sources_too, std::uint64_t seed) {
   bake::Random random(seed);
   std::vector<double> means(bootstrap_draws);

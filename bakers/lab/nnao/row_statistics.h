@@ -24,17 +24,18 @@ struct ErrorPair {
 struct SourceRatio {
   std::string source;
   std::size_t views = 0;
-  double ratio = 0;  // geometric mean over its views
+  double ratio = 0;  // geometric mean over the views of the source
 };
 
 // The ratio of two methods' errors over many views, as a geometric mean with bootstrap bounds.
 struct RatioStatistics {
-  // The geometric mean of the sources' ratios. All sources have the same weight, however many views they
-  // have.
+  // The geometric mean of the ratios of the sources. All sources have the same weight, independent of their
+  // number of views.
   double ratio = 1;
   // The 5 % and 95 % quantiles of this mean when the views within each source are resampled.
   double lower_95 = 1, upper_95 = 1;
-  // The 95 % quantile when the sources are resampled as well. Use it as the bound for other scenes.
+  // The 95 % quantile of this mean when the sources are resampled as well. Use it as the bound if you want to
+  // draw conclusions about other scenes.
   double upper_95_sources = 1;
   std::size_t views = 0;
   std::vector<SourceRatio> sources;  // in the order of their first views

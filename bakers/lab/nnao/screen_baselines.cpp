@@ -108,7 +108,7 @@ BaselineGrid baseline_grid(Baseline baseline, int taps) {
 
 std::string baseline_defines(const BaselineMethod& method) {
   std::string defines = define("NOOK_BORDER", int(method.tuning.border));
-  // The numbers of spiral turns of Filament's qualities Low and Ultra.
+  // Filament's qualities Low and Ultra have different numbers of spiral turns.
   if (method.baseline == Baseline::filament) return defines + define("NOOK_TURNS", method.taps < 32 ? 3 : 14);
   if (method.baseline != Baseline::xegtao) return defines;
   return defines + define("NOOK_STEPS", baseline_grid(method.baseline, method.taps).steps) +
@@ -121,7 +121,7 @@ std::span<const BaselineMethod> baseline_methods() {
 
 int baseline_fetches(const BaselineMethod& method, bool denoised) {
   const bool xegtao = method.baseline == Baseline::xegtao;
-  // XeGTAO's depth levels take 1 + 1 + 1/4 + 1/16 + 1/64 fetches per pixel, which are counted as 3.
+  // Making XeGTAO's depth levels takes 1 + 1 + 1/4 + 1/16 + 1/64 fetches per pixel. They are counted as 3.
   int fetches = 2 + method.taps + (xegtao ? 3 + 4 + 1 : 0);
   if (!denoised) return fetches;
   switch (method.tuning.denoiser) {

@@ -1,4 +1,4 @@
-// The methods that the screen-space network is compared with. Their parameters are tuned; everything else is
+// The methods that the screen-space network is compared with. We tuned their parameters. Everything else is
 // as published.
 #pragma once
 
@@ -16,16 +16,17 @@ inline constexpr Baseline all_baselines[] = {
 const char* baseline_name(Baseline baseline);    // in tables
 const char* baseline_shader(Baseline baseline);  // in shaders/
 
-// What a tap outside the screen reads. `nothing`: the tap finds no surface. `pixel`: the tap moves to the
-// nearest pixel on the screen. `depth`: the tap stays in place and uses the depth of that pixel, like a
-// clamping sampler. The shader macro NOOK_BORDER has the same values.
+// What a tap outside the screen reads. With `nothing`, the tap finds no surface. With `pixel`, the tap moves
+// to the nearest pixel on the screen. With `depth`, the tap keeps its position but uses the depth of the
+// nearest pixel on the screen, like a clamping sampler. The shader macro NOOK_BORDER has the same values.
 enum class Border { nothing, pixel, depth };
 inline constexpr Border all_borders[] = {Border::nothing, Border::pixel, Border::depth};
 const char* border_name(Border border);
 
 // How the noise is removed. `blur` is a bilateral blur over 7 x 7 pixels. `edges_1` to `edges_3` run XeGTAO's
-// edge-aware denoiser over 3 x 3 pixels one to three times. Shipped methods have their own denoisers: the
-// mean of 4 x 4 pixels (VTK, QGIS), N8AO's disc, Filament's bilateral Gaussian, or none (S4AO, VTK).
+// edge-aware denoiser over 3 x 3 pixels one to three times. The other denoisers belong to methods with
+// shipped settings: `box` is the mean of 4 x 4 pixels, `disc` is from N8AO, `gaussian` is the bilateral
+// Gaussian of Filament, and `none` does nothing.
 enum class Denoiser { blur, edges_1, edges_2, edges_3, none, box, disc, gaussian };
 inline constexpr Denoiser all_denoisers[] = {Denoiser::blur,    Denoiser::edges_1, Denoiser::edges_2,
                                              Denoiser::edges_3, Denoiser::none,    Denoiser::box,
@@ -45,19 +46,20 @@ struct BaselineTuning {
   // The method's own parameter:
   //   SSAO+, VTK, Filament  bias in radii
   //   HBAO                  bias in radians
-  //   GTAO                  where the falloff begins, in radii
+  //   GTAO                  distance at which the falloff begins, in radii
   //   bitmask               thickness in radii
   //   XeGTAO, N8AO          falloff range in radii
   //   S4AO                  falloff range as a share of the inverse depth
   //   QGIS                  threshold
   // SSAO has none.
   float shape = 0;
-  float thin = 0;              // XeGTAO's compensation for thin occluders
-  bool equal_weights = false;  // bitmask: sectors of equal cosine-weighted shares instead of equal angles
+  float thin = 0;  // the parameter of XeGTAO that compensates for thin occluders
+  // Only for bitmask: sectors have equal cosine-weighted shares instead of equal angles.
+  bool equal_weights = false;
   Border border = Border::nothing;
   Denoiser denoiser = Denoiser::blur;
-  // A factor of the occlusion, for S4AO and QGIS. The search leaves it at 1, because changing `power` works
-  // as well.
+  // The occlusion is multiplied by this factor in S4AO and QGIS. The search leaves it at 1, because it can
+  // change `power` instead.
   float strength = 1;
 
   bool operator==(const BaselineTuning&) const = default;
@@ -67,7 +69,7 @@ struct BaselineMethod {
   Baseline baseline;
   int taps;
   BaselineTuning tuning;
-  bool shipped = false;  // uses the default settings of the program that ships it
+  bool shipped = false;  // true if the method uses the default settings of the program that ships it
 };
 std::string baseline_row(const BaselineMethod& method);  // name in tables, with "_shipped" for shipped
                                                          // settings
@@ -85,9 +87,9 @@ std::string baseline_defines(const BaselineMethod& method);
 // --tune all` prints, then those with shipped settings.
 std::span<const BaselineMethod> baseline_methods();
 
-// Returns the number of texels read per pixel: the pixel's depth and normal, and one depth per tap. XeGTAO
-// also reads its depth levels, four neighbours and noise. If `denoised` is true, the fetches of the denoiser
-// are included.
+// Returns the number of texture fetches per pixel. Every method reads the depth and the normal of the pixel,
+// and one depth per tap. XeGTAO also needs fetches for its depth levels, four neighbours and the noise. If
+// `denoised` is true, the fetches of the denoiser are included.
 int baseline_fetches(const BaselineMethod& method, bool denoised);
 // The blur has two passes, one per axis. Each pass reads AO, depth and normal of 7 pixels.
 inline constexpr int blur_fetches = 2 * 3 * 7;

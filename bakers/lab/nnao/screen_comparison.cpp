@@ -25,7 +25,8 @@ struct Method {
   std::function<GLuint(const GpuView&, const AoRequest&, bool)> draw;
   int fetches_raw = 0, fetches_blurred = 0;
   std::string denoiser;    // denoiser that the blurred row uses
-  bool is_oracle = false;  // drawn only once per view, without blur and flicker
+  bool is_oracle = false;  // true for oracles: they are drawn only once per view, without a blur, and their
+                           // flicker is not measured
 };
 
 // Holds a view, and the same view with the image shifted by one pixel.

@@ -19,9 +19,9 @@ struct Measurement {
   measure::ImageError error;
   BorderBias border;
   Calibration calibration;
-  std::vector<double>
-      flicker;  // per view: mean |change| of AO when the image shifts by a pixel; empty for oracles
-  std::vector<double> ms;  // wall-clock time of each frame, including glFinish
+  std::vector<double> flicker;  // per view: mean absolute change of AO when the camera's image is shifted by
+                                // one pixel; empty for oracles
+  std::vector<double> ms;       // wall-clock time of each frame, including glFinish
 
   void add(const Measurement& other);
   double mean_flicker() const;
@@ -34,17 +34,18 @@ struct ComparisonRow {
   bool blurred = false;
   int fetches = 0;                 // per pixel
   std::vector<Measurement> views;  // in the order of the views
-  std::string denoiser;            // the tuned denoiser of a baseline, the library's denoiser, or none
+  // Name of the denoiser: the tuned denoiser of a baseline, the library's denoiser, or none.
+  std::string denoiser;
 };
 
-// Returns the combined measurement of a row over the views with the indices `which`.
+// Combines the measurements of a row over the views with the indices `which`.
 Measurement pooled(const ComparisonRow& row, std::span<const std::size_t> which);
 
 // Names of two more rows of the embedded network: at half resolution, and with the filter run twice.
 inline constexpr char half_name[] = "nnao_half", twice_name[] = "nnao_twice";
 
 struct ComparisonSettings {
-  measure::AoRequest request;            // its radius is replaced by the radius of each view
+  measure::AoRequest request;  // the settings for all views; each view replaces the radius by its own
   std::vector<std::byte> other_network;  // a network file to compare with the embedded network, or empty
   std::string other_name;                // in tables
   // Names as in tables, or name:taps. If empty, or "all", measures all methods except the oracles.

@@ -103,7 +103,7 @@ std::string ratio_table(const Json& ratios) {
   return text;
 }
 
-// Returns the time of nnao with 64 taps, or `own` if nnao was not measured with 64 taps.
+// Returns the time of nnao with 64 taps. If nnao was not measured with 64 taps, returns `own`.
 double reference_ms(const Comparison& comparison, const ViewGroup& group, bool blurred, double own) {
   for (const ComparisonRow& row : comparison.rows)
     if (row.method == "nnao" && row.taps == 64 && row.blurred == blurred)
@@ -111,7 +111,7 @@ double reference_ms(const Comparison& comparison, const ViewGroup& group, bool b
   return own;
 }
 
-// Returns the views of all groups that count for means.
+// Returns the indices of the views of all groups, except groups that are left out of means.
 std::vector<std::size_t> counted_views(std::span<const ViewGroup> groups) {
   std::vector<std::size_t> views;
   for (const ViewGroup& group : groups)

@@ -13,7 +13,7 @@ namespace nook::lab {
 struct ViewGroup {
   std::string name;
   std::vector<std::size_t> views;  // indices
-  bool is_built_in = false;        // a built-in scene, which is left out of means
+  bool is_built_in = false;        // true for built-in scenes, which are left out of means
 };
 
 // Returns one object per row. image_bias.h explains dark_bias and calibration. `border_bias` is the mean of
@@ -22,8 +22,8 @@ struct ViewGroup {
 nlohmann::ordered_json nnao_rows(const Comparison& comparison, const ViewGroup& group,
                                  const std::string& resolution, const std::string& gpu);
 
-// Returns one object per blurred method. It has the mean of AO - truth in each band of each border, the
-// outermost band first, and the mean inside.
+// Returns one object for each method with a blur. It has the mean of AO - truth in each band of each border,
+// with the outermost band first, and the mean inside all bands.
 nlohmann::ordered_json nnao_border_rows(const Comparison& comparison, const ViewGroup& group);
 
 // Returns one object for each view and row of the comparison.
@@ -42,9 +42,9 @@ struct MethodRatio {
   int taps = 0, over_taps = 0;
 };
 
-// Returns one object for each ratio whose two methods were measured. The ratio is between the blurred `mse`
-// of both methods, or the raw `mse` if a method has no blur. It is taken over all views of the groups that
-// are not built in.
+// Returns one object for each ratio whose two methods were measured. A ratio compares the blurred `mse` of
+// both methods. If a method has no blur, its raw `mse` is used. The ratio is computed over all views of the
+// groups that are not built in.
 nlohmann::ordered_json nnao_ratio_rows(const Comparison& comparison, std::span<const MeasuredView> views,
                                        std::span<const ViewGroup> groups, std::span<const MethodRatio> ratios,
                                        std::uint64_t seed);

@@ -145,7 +145,7 @@ std::vector<std::string> mean_columns() {
   return names;
 }
 
-// A ratio of the errors of two passes, over all pixels or only over disoccluded pixels.
+// Describes a ratio of the errors of two passes, over all pixels or only over disoccluded pixels.
 struct SequenceRatio {
   int taps, frames, over_taps, over_frames;
   bool disoccluded;
@@ -276,8 +276,8 @@ SequenceView measure_sequence(platform::Context& context, const MeasuredView& vi
     measured.disoccluded += disoccluded(i);
   }
 
-  // Each path gets a new pass, because the noise of a frame depends on the frames that the pass has drawn
-  // before.
+  // Makes a new pass for each path, because the noise pattern of a frame depends on how many frames the pass
+  // has drawn before.
   const NookGl nook_gl(context);
   const auto add = [&](const NetworkForm& form, std::size_t first, int frames) {
     NetworkPass pass(nook_gl, width, height, form, {}, request.blur_sharpness);

@@ -20,15 +20,17 @@ inline constexpr std::size_t sequence_frames = 8;
 // The result of a pass at the end of a path.
 struct SequenceError {
   int taps = 0;
-  int frames = 1;  // number of frames since the camera cut; 1: each frame alone
+  int frames = 1;  // number of frames since the camera cut; 1: frames are not accumulated
   double mse = 0;
-  double disoccluded_mse = 0;  // over surfaces that the previous frame does not show; 0 if there are none
-  double change = 0;           // mean change of a surface's AO between frames
+  // Mean squared error over surfaces that the previous frame does not show; 0 if there are none.
+  double disoccluded_mse = 0;
+  double change = 0;  // mean change of a surface's AO between frames
 };
 
 struct SequenceView {
   std::string scene, source, camera;
-  double step_px = 0;  // mean motion on the screen between frames, over surfaces that both frames show
+  // Mean motion on the screen from frame to frame, over the surfaces that both frames show.
+  double step_px = 0;
   std::size_t surfaces = 0, disoccluded = 0;  // pixels
   std::vector<SequenceError> errors;
 };
@@ -38,8 +40,8 @@ struct SequenceView {
 SequenceView measure_sequence(platform::Context& context, const MeasuredView& view,
                               measure::AoRequest request);
 
-// Views with fewer disoccluded pixels are left out of the ratios over disoccluded pixels, because their
-// errors would be mostly noise.
+// Views with fewer disoccluded pixels than this are left out of the ratios over disoccluded pixels, because
+// their errors would be mostly noise.
 inline constexpr std::size_t fewest_disoccluded = 100;
 
 // Returns an object with three members. `rows` has the means over the views of each source, and over all

@@ -74,8 +74,8 @@ Camera slid_by_one_pixel(Camera camera) {
 }
 
 TrainingScene scene_to_look_at(TriangleSoup soup) {
-  // Small objects have most of the vertices, and backdrops have most of the area. Half of the points are
-  // chosen by vertices and half by area, so that objects of medium size are found too.
+  // Most vertices belong to small objects, and most of the area belongs to backdrops. Half of the points are
+  // therefore drawn from the vertices and half by area, so that objects of medium size are found too.
   std::vector<double> area_below;
   double area = 0;
   for (const auto& t : soup.triangle) {

@@ -15,16 +15,17 @@ namespace nook::lab {
 std::vector<float> trace_truth(const bake::RayScene& rays, const bake::nnao::TracedView& view, float radius,
                                std::uint32_t ray_count, std::uint64_t seed);
 
-// Returns the expected squared error of a reference from trace_truth. It traces some pixels twice and takes
-// half the mean squared difference.
+// Returns the expected squared error of a reference that trace_truth returns. To estimate it, traces some
+// pixels twice and computes half the mean squared difference.
 double truth_noise(const bake::RayScene& rays, const bake::nnao::TracedView& view, float radius,
                    std::uint32_t ray_count, std::uint64_t seed);
 
 // Returns a camera whose image is shifted by one pixel: pixel x shows what pixel x + 1 showed before.
 bake::nnao::Camera slid_by_one_pixel(bake::nnao::Camera camera);
 
-// Returns the scene with boxes for camera positions and subjects. The boxes are derived from the triangles
-// only. They lie inside the scene's bounds, where rays hit surfaces within a few metres.
+// Makes a scene from the triangles, with a box for camera positions and a box for the subjects that cameras
+// look at. The boxes are derived from the triangles only. They lie inside the scene's bounds, where rays hit
+// surfaces within a few metres.
 bake::nnao::TrainingScene scene_to_look_at(bake::TriangleSoup soup);
 
 inline constexpr std::array<float, 5> measured_roughness{0.1f, 0.3f, 0.5f, 0.7f, 0.9f};

@@ -130,8 +130,8 @@ struct ViewOnGpu {
   GpuView image;
 };
 
-// For each of the 256 AO values, stores how many pixels have it and the sum of their true AO. From these, the
-// error can be computed after any function is applied to the AO.
+// For each of the 256 AO values, stores how many pixels have this value, and the sum of their true AO. From
+// these sums, the error can be computed for any function that is applied to the AO.
 class TruthByLevel {
  public:
   void add(const std::vector<float>& ao, const MeasuredView& measured) {
@@ -169,10 +169,10 @@ struct Found {
   double mse = never;
 };
 
-// Searches for the tuning of one method on some of the views. It estimates the best contrast of each place
-// from the drawn image. The estimate applies the contrast after the denoiser, whereas the shaders apply it
-// before. If `settled` is true, the search redraws the image with the estimated contrast until the estimate
-// no longer changes.
+// Searches for the best tuning of one method on some of the views. For each place (a point in the space of
+// parameters), it estimates the best contrast from the drawn image. The estimate applies the contrast after
+// the denoiser, but the shaders apply it before. If `settled` is true, the search therefore redraws the image
+// with the estimated contrast until the estimate no longer changes.
 class Search {
  public:
   Search(const GladGLContext& gl, BaselinePass& pass, const std::deque<ViewOnGpu>& views, std::size_t every,
@@ -181,7 +181,7 @@ class Search {
     for (std::size_t v = 0; v < views.size(); v += every) views_.push_back(&views[v]);
   }
 
-  // Finds the best contrast for the other parameters of a place, and returns the error with it.
+  // Finds the best contrast for the other parameters of a place. Returns this contrast and the error.
   Found with_best_power(TuningPlace place) {
     Found found = estimate(place);
     if (!settled_) return found;
@@ -192,8 +192,8 @@ class Search {
   // Returns the error of exactly this place.
   double mse(const TuningPlace& place) { return drawn(place).mse(1); }
 
-  // Checks whether a place is on the grids and, with its best contrast, better than `best`. If so, sets
-  // `best` to the place and returns true.
+  // Checks two things: whether a place is on the grids, and whether its error with the best contrast is lower
+  // than the error of `best`. If both are true, sets `best` to the place and returns true.
   bool improve(Found& best, const TuningPlace& place) {
     for (std::size_t axis = 0; axis < tuned_axes; ++axis)
       if (place.at[axis] < 0 || place.at[axis] >= int(axis_values(method_.baseline, axis).size()))
@@ -271,7 +271,8 @@ class Search {
   std::map<TuningPlace, TruthByLevel> known_;
 };
 
-// Returns steps of radius and shape, alone and combined. The shape grids are coarser than the radius grid.
+// Returns the steps that the search tries: steps of the radius, steps of the shape, and combinations of both.
+// The shape grids are coarser than the radius grid.
 std::vector<Step> steps(Baseline baseline, int stride) {
   const int small = std::max(stride / 2, 1);
   std::vector<Step> all{{stride, 0, 0, 0}, {-stride, 0, 0, 0}};
@@ -324,8 +325,8 @@ std::vector<Found> by_denoiser(Search& search, Baseline baseline, const Found& s
   return found;
 }
 
-// Denoisers whose error on the subset of views is within this factor of the best are compared again on all
-// views.
+// A denoiser is compared again on all views if its error on the subset of views is at most this factor above
+// the lowest error.
 constexpr double near_best = 1.02;
 
 Found tune(const GladGLContext& gl, BaselinePass& pass, const std::deque<ViewOnGpu>& views,

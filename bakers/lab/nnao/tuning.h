@@ -33,19 +33,20 @@ std::span<const float> axis_values(Baseline baseline, std::size_t axis);
 
 BaselineTuning tuning_at(Baseline baseline, const TuningPlace& place);
 
-// Returns the start of the search: the radius and contrast of the request, the middle of the shapes, and a
-// fast denoiser.
+// Returns the place at which the search starts. It has the radius and contrast of the request, the middle
+// value of the shape, and a fast denoiser.
 TuningPlace first_place(Baseline baseline);
 
-// Returns the axes on which the place is at the end of a grid that could be extended. Ends that are natural
-// limits do not count: a bias or compensation cannot be below 0, and XeGTAO's falloff already ranges from
-// almost 0 to the whole radius.
+// Returns the axes on which the place is at the end of its grid, if the grid could be extended there. Ends
+// that are natural limits do not count. A bias or compensation cannot be below 0, and XeGTAO's falloff
+// already ranges from almost 0 to the whole radius.
 std::vector<std::string> axes_at_edge(Baseline baseline, const TuningPlace& place);
 
 struct TunedBaseline {
   BaselineMethod method;
   double mse;  // after denoising; mean over the views
-  // Parameters whose best value is at the end of a grid that could be extended. Such a grid is too small.
+  // Parameters whose best value is at the end of a grid that could be extended. For these parameters, the
+  // grid is too small.
   std::vector<std::string> at_edge;
 };
 

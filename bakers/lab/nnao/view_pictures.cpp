@@ -131,7 +131,8 @@ platform::Image unit_picture(const Network& network, const MeasuredView& measure
         const float low = sorted[u][sorted[u].size() / 100], high = sorted[u][sorted[u].size() * 99 / 100];
         const float share =
             std::clamp((units[view.at(x, y)][u] - low) / std::max(high - low, 1e-12f), 0.0f, 1.0f);
-        // Cyan absorbs red, magenta absorbs green, and yellow absorbs blue.
+        // Channel `u` of the pixel gets darker with the share of unit `u`, because cyan absorbs red, magenta
+        // absorbs green, and yellow absorbs blue.
         image.pixels[3 * view.at(x, view.height - 1 - y) + u] = std::uint8_t(std::lround(255 * (1 - share)));
       }
     }

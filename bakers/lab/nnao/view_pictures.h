@@ -15,12 +15,12 @@ namespace nook::lab {
 // the size of the view, with rows from the bottom.
 platform::Image make_sheet(const MeasuredView& measured, std::span<const std::vector<float>> images);
 
-// Draws the weights of the first layer. Positive weights are white, and negative ones black. For the paper's
-// form, the picture is a table of 31 x 31 filters: each row is one of the inputs n_x, n_y, n_z and depth, and
-// each column is a unit. For the horizon form, the picture shows the response of each of the eight units to
-// one tap. The distance of the tap grows from 0 to 2 radii from left to right. Its elevation grows upwards,
-// from straight below the tangent plane to straight above it. The taps lie in a plane at right angles to the
-// viewing direction.
+// Draws the weights of the first layer. Positive weights are white, and negative weights are black. For the
+// paper's form, the picture is a table of 31 x 31 filters: each row is one of the inputs n_x, n_y, n_z and
+// depth, and each column is a unit. For the horizon form, the picture shows the response of each of the eight
+// units to one tap. The distance of the tap grows from 0 to 2 radii from left to right. Its elevation grows
+// upwards, from straight below the tangent plane to straight above it. The taps lie in a plane at right
+// angles to the viewing direction.
 platform::Image filter_picture(const nook::nnao::Network& network);
 
 // Draws the outputs of nook::nnao::first_units for a view as cyan, magenta and yellow. Each colour is scaled

@@ -25,7 +25,8 @@ using measure::visible_reflections;
 using probe::SpecularForm;
 using probe::Surface;
 
-constexpr int steps = 64;  // visible normals per axis; with twice as many, sums change by less than 0.2 %
+// Number of visible normals per axis; doubling it changes the sums by less than 0.2 %.
+constexpr int steps = 64;
 
 struct Kind {
   const char* name;
@@ -61,7 +62,8 @@ Surface random_surface(const Kind& kind, bake::Random& random) {
   return s;
 }
 
-// The reference: the radiance of a surface under both lights.
+// The reference values: the radiance that a surface reflects under the light of the lobes and under the light
+// of the map.
 struct Truth {
   Vec3 of_lobes, of_map;
 };

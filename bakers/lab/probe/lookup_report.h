@@ -14,7 +14,8 @@ struct LookupScene {
   std::string name;
   const bake::LitScene& lit;
   const bake::TriangleSoup& soup;
-  const Rooms* rooms = nullptr;  // if set, errors are relative to each room's mean, and leaks are measured
+  const Rooms* rooms = nullptr;  // if set, errors are relative to the mean irradiance of each room, and light
+                                 // leaks are measured
 };
 
 struct LookupSettings {

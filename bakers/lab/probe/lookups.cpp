@@ -57,7 +57,8 @@ Lookup visibility_lookup(const Probes& probes, const bake::LitScene& scene,
 Moments::Moments(const bake::LitScene& scene, const std::vector<Vec3>& probe_positions_ws, Vec3 spacing_ws)
     : positions_ws_(probe_positions_ws), rays_(probe_positions_ws.size()), spacing_ws_(spacing_ws) {
   constexpr std::size_t ray_count = 1024;
-  const float most = 1.5f * length(spacing_ws);  // clamp; greater distances are not useful
+  const float most = 1.5f * length(spacing_ws);  // distances are clamped to this value, because greater
+                                                 // distances carry no useful information
   std::array<Vec3, ray_count> direction;
   nook::probe::vogel_sphere(direction);
   tbb::parallel_for(std::size_t(0), rays_.size(), [&](std::size_t p) {

@@ -18,8 +18,8 @@ using Lookup = std::function<void(Vec3 position_ws, Vec3 normal, std::span<Vec3>
 // `offset` moves the place along the normal, in units of the grid spacing.
 Lookup own_lookup(const probe::Probes& probes, float offset = 0);
 
-// Returns a trilinear lookup that uses only the corners that are visible from the place, tested with rays. If
-// no corner is visible, it uses all corners.
+// Returns a trilinear lookup that uses only those probes at the corners of the cell that are visible from the
+// place. Rays test the visibility. If no corner is visible, the lookup uses all corners.
 Lookup visibility_lookup(const probe::Probes& probes, const bake::LitScene& scene,
                          const std::vector<Vec3>& probe_positions_ws, float origin_offset);
 

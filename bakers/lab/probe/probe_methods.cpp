@@ -32,7 +32,7 @@ std::vector<ProbeMethod> probe_methods(std::uint32_t lobes, const Region& region
   add("naive", gaussians, settings_of(FitMethod::naive));
   add("running_average", gaussians, running);
   FitSettings variant = running;
-  variant.growing_samples = 1;  // not 0; fit_samples replaces it by the number of samples
+  variant.growing_samples = 1;  // any value except 0; fit_samples replaces it by the number of samples
   add("running_average, growing weights", gaussians, variant);
   variant = running;
   variant.step = Step::plain;

@@ -27,7 +27,7 @@ struct Room {
 // lit. One room is sealed and does not have a lamp.
 struct Rooms {
   bake::TriangleSoup soup;
-  float origin_offset = 0;  // offset along the normal of rays that leave a surface, metres
+  float origin_offset = 0;  // rays that leave a surface start this far from it along the normal, metres
   Vec3 low_ws, high_ws;     // box of a probe grid, metres
   std::unique_ptr<bake::LitScene> lit;
   std::vector<Room> room;

@@ -24,7 +24,7 @@ SMALL = {"weave": ["--directions", "49", "--texels", "48"],
 # The tables compare methods with the paper's fits and with half floats.
 NO_REFITS = ["--votf-refits", "0"]
 PAPER = [*NO_REFITS, "--bits", "16"]
-# Materials that the tables of number formats have, with the ranks for the comparison with N-SVD.
+# The materials that the tables of number formats contain, with the ranks for the comparison with N-SVD.
 NUMBERS = {"wood": ["--ranks", "12,20,24,24"], "49 x 49 fiber": [], "weave": [], "49 x 49 roughhole": []}
 SWEEP = [12, 20, 28, 36, 44, 60, 76]
 # The smallest ranks that `bake material` allows. They are used if only the raw material is needed as a

@@ -4,11 +4,11 @@ docs/lab/world.md.
 
     bakers/lab/tables/world_tables.py --nook build/bakers/tool/nook [--write] [--keep DIR] [--room SCENE.glb=METRES] [--light MAP.hdr] CHARACTER.glb ...
 
-Half of the clips are fitted, and the other half is measured. The self-shadow is fitted quickly (--steps 100
---rays 4), because the casters do not depend on it. With --keep, models and reports are kept, and existing
-ones are reused. The table of rooms has the first character in the built-in room and in the rooms that you
-give with --room. METRES is the number of metres per unit of the scene. Without --room, this table is not
-changed. With --light, only the table of irradiance under these maps is made.
+Half of the clips are used for the fit, and the other half for the measurement. The self-shadow is fitted with
+few steps and rays (--steps 100 --rays 4), because the casters do not depend on it. With --keep, models and
+reports are kept, and existing ones are reused. The table of rooms has the first character in the built-in
+room and in the rooms that you give with --room. METRES is the number of metres per unit of the scene. Without
+--room, this table is not changed. With --light, only the table of irradiance under these maps is made.
 """
 import argparse
 import json

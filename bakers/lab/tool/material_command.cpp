@@ -53,8 +53,8 @@ class Peers : public tool::MaterialPeers {
         .delimiter(',');
   }
 
-  // Rejects a neural material if a method needs the ranks of the file. Methods that are sized by bytes or
-  // texels do not need them.
+  // Rejects a neural material if one of the methods needs the ranks of the file, which a neural material does
+  // not have. Methods whose size is given in bytes or texels do not need the ranks.
   void check(const nook::material::Material& material) const override {
     const auto needs_ranks = [](const std::string& name) {
       return name != "pca" && name != "pbr" && name != "neural";

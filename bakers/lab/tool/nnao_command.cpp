@@ -1,5 +1,5 @@
 // nook-lab evaluate nnao: compares the screen-space pass and its baselines with ray tracing, on OpenGL
-// without a display. Also runs the search that tunes the baselines.
+// without a display. The command also runs the search that tunes the baselines.
 #include <cstdio>
 #include <memory>
 

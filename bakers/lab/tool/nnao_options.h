@@ -16,7 +16,7 @@ class Command;
 
 namespace nook::lab {
 
-// Scenes with their cameras and radii, as unparsed command-line words.
+// The scenes with their cameras and radii, as words of the command line that are not parsed yet.
 struct SceneWords {
   std::vector<std::filesystem::path> files;
   bool thin = false;

@@ -1,5 +1,5 @@
-// Code that the protocols of `nook-lab evaluate nnao` share: reading scenes from the command line or from a
-// list of test views, tracing their views, and the common end of all reports.
+// Code that all protocols of `nook-lab evaluate nnao` share. It reads scenes from the command line or from a
+// list of test views, traces their views, and writes the common end of the reports.
 #pragma once
 
 #include <nlohmann/json.hpp>

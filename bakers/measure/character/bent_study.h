@@ -42,8 +42,8 @@ struct GlossyMap {
 };
 
 struct BentStudy {
-  std::size_t points =
-      600;  // welded vertices per pose; each is seen from a random viewer with a free line of sight
+  // Welded vertices per pose; each is seen from a random viewer with a free line of sight.
+  std::size_t points = 600;
   std::uint32_t rays = 512;  // per point, for AO and bent normal; each of the two references of a reflection
                              // uses an eighth of these rays
   std::uint64_t seed = 1;

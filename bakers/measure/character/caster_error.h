@@ -24,8 +24,8 @@ struct CasterRow {
   double mse_over_none = 0;  // mean squared error of the darkening, divided by the error of a method that
                              // never darkens; the noise of the rays is removed from both
   double rms_darkened = 0;   // root mean squared error where the traced darkening is above darkened_from
-  double share_inside =
-      0;  // fraction of the area that is left out, because it is inside the neighbour and no camera sees it
+  // Fraction of the area that is left out, because it is inside the neighbour and no camera sees it.
+  double share_inside = 0;
   // The change of AO that the default far_error of a scene causes, as a root mean square over vertices,
   // weighted by area. It includes the effect of grouping the neighbour's spheres and of grouping the body's
   // own far spheres.
@@ -38,8 +38,8 @@ struct CasterStudy {
   std::vector<float> distances{0.3f, 0.5f, 0.75f, 1, 2, 3, 5, 10};
   bool in_radii = false;  // distances are in bounding radii of the body instead of metres
   std::size_t bearings = 6;
-  std::uint32_t rays =
-      256;  // per vertex, traced in two halves; the same rays are used with and without the neighbour
+  // Per vertex, traced in two halves; the same rays are used with and without the neighbour.
+  std::uint32_t rays = 256;
   std::uint64_t seed = 1;
 };
 

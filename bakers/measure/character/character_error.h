@@ -20,10 +20,10 @@ inline constexpr double visible_truth = double(bake::hidden_below);
 
 struct ErrorColumns {
   double mse = 0;  // over all welded vertices and poses, as in the paper
-  double mse_visible =
-      0;  // only over vertex-poses whose traced AO is at least visible_truth; 0 if there are none
-  double mse_visible_area =
-      0;  // like mse_visible, but weighted by rest Voronoi area, because the eye sees areas and not vertices
+  // Only over vertex-poses whose traced AO is at least visible_truth; 0 if there are none.
+  double mse_visible = 0;
+  // Like mse_visible, but weighted by rest Voronoi area, because the eye sees areas and not vertices.
+  double mse_visible_area = 0;
   double mse_area = 0;   // weighted by rest Voronoi area
   double mse_body = 0;   // only over vertices outside the hands (see hand_vertices)
   double mse_hands = 0;  // only over vertices of the hands; 0 if there are none

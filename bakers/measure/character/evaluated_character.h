@@ -27,8 +27,8 @@ BakedCharacter read_baked_character(bake::ImportedCharacter character, std::vect
 // Which poses to measure.
 struct PoseChoice {
   bool training = false;  // true: use the poses that the model was fitted to, reproduced from its recipe
-  std::vector<std::string>
-      clips;  // use only these clips of the file; if empty, choose_poses chooses the clips
+  // Use only these clips of the file; if empty, choose_poses chooses the clips.
+  std::vector<std::string> clips;
   std::size_t samples_per_clip = 20;
   std::size_t most = 0;  // approximate number of poses, picked at even intervals; 0: all
 };

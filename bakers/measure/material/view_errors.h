@@ -15,8 +15,8 @@ namespace nook::bake::material {
 
 struct UnseenError {
   double se_db = 0;
-  std::optional<std::size_t>
-      error_texels;  // number of wrong texels of the VOTF, in the form that the material uses
+  // Number of wrong texels of the VOTF, in the form that the material uses.
+  std::optional<std::size_t> error_texels;
 };
 // Compares the material with raw data that has the same texels but other views or other lights. Throws
 // Failure(INVALID_ARGUMENT) if the texels differ.

@@ -58,8 +58,8 @@ struct NetworkForm {
   int blur = 1;       // how many times the filter runs
   bool bent = false;  // with bent normals
   int temporal_frames = 0;
-  nook_nnao_path path =
-      NOOK_NNAO_PATH_FRAGMENT;  // the other methods use this path too, so that times are comparable
+  // The other methods use this path too, so that times are comparable.
+  nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;
 };
 
 class NetworkPass {

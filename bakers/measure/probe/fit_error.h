@@ -51,8 +51,8 @@ class IrradianceTruth {
 
   struct Error {
     double rms = 0;  // over normals and channels
-    double minimum =
-        0;  // lowest irradiance over all normals and channels, divided by the map's mean irradiance
+    // Lowest irradiance over all normals and channels, divided by the map's mean irradiance.
+    double minimum = 0;
   };
   // Returns the luminance of the map's irradiance, averaged over the normals.
   double mean() const { return mean_; }

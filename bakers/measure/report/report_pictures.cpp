@@ -24,8 +24,8 @@ float encoded(float linear) {
 }
 
 constexpr float relief = 0.3f, margin = 1.06f, pi = std::numbers::pi_v<float>;
-constexpr std::size_t tested_vertices =
-    3000;  // number of vertices whose visibility is tested to choose a view
+// Number of vertices whose visibility is tested to choose a view.
+constexpr std::size_t tested_vertices = 3000;
 
 Vec3 direction(float turn, float tilt) {
   return {std::cos(tilt) * std::sin(turn), std::sin(tilt), std::cos(tilt) * std::cos(turn)};

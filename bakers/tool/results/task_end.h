@@ -20,8 +20,8 @@ struct AssetFiles {
 struct TaskEnd {
   std::optional<int> exit_code;  // none: the task still runs, was killed, or another program wrote the log
   std::string words;             // the last line that the task itself wrote
-  bool is_of_task =
-      false;  // true if `nook task` wrote the log; such a log always has an end, unless the task was killed
+  // True if `nook task` wrote the log; such a log always has an end, unless the task was killed.
+  bool is_of_task = false;
 };
 
 // Reads the end of a log. Its last line is "exit code N".

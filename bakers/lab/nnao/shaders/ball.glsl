@@ -1,5 +1,6 @@
-// Points in the unit ball, spread evenly over directions. Their distances from the centre are spread evenly
-// too, so the points are denser near the centre. Neighbouring pixels mirror the points at different planes.
+// Makes points in the unit ball. They are spread evenly over directions. Their distances from the centre are
+// also spread evenly, so the points are denser near the centre. Each pixel of a neighbourhood mirrors the
+// points at a different plane.
 vec3 on_sphere(float share, float turn) {
   float z = 1.0 - 2.0 * share;
   float angle = 6.2831853 * turn;

@@ -1,5 +1,5 @@
-// Code that the baselines share. Each baseline defines baseline_ao, which this file calls for pixels with a
-// surface.
+// Code that the baselines share. Each baseline must define the function baseline_ao. The code in this file
+// calls it for pixels with a surface.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
 uniform float radius_scale;  // tuned radius divided by the radius of the request
@@ -11,8 +11,8 @@ out float result;
 
 const float pi = 3.14159265;
 
-// Returns two random numbers in (0, 1). Each takes 16 values over 4 x 4 pixels, so that the blur averages
-// them out. All methods use the same noise.
+// Returns two random numbers in (0, 1). In each block of 4 x 4 pixels, each number takes 16 different values,
+// so that the blur averages the noise out. All methods use the same noise.
 vec2 pixel_noise() {
   uvec2 at = uvec2(gl_FragCoord.xy);
   uint across = at.x ^ at.y;
@@ -21,8 +21,9 @@ vec2 pixel_noise() {
   return (vec2(rank, reversed) + 0.5) / 16.0;
 }
 
-// What a tap outside the screen reads. 0: it finds no surface. 1: it moves to the nearest pixel on the
-// screen. 2: it stays in place and uses the depth of that pixel, like a clamping sampler.
+// What a tap outside the screen reads. 0: the tap finds no surface. 1: the tap moves to the nearest pixel on
+// the screen. 2: the tap keeps its position but uses the depth of the nearest pixel on the screen, like a
+// clamping sampler.
 #ifndef NOOK_BORDER
 #define NOOK_BORDER 0
 #endif
@@ -43,7 +44,7 @@ float tap_depth(inout ivec2 at) {
 #endif
 }
 
-// Returns the pixel of a view-space position.
+// Returns the pixel that shows a view-space position.
 ivec2 pixel_of(vec3 position) {
   return ivec2(floor((position.xy / -position.z - screen_rays.yw) / screen_rays.xz));
 }

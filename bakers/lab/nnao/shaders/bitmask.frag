@@ -1,13 +1,13 @@
 #version 330 core
 // GTAO with a visibility bitmask (O. Therrien, Y. Levesque, G. Gilet, Screen space indirect lighting with
 // visibility bitmask, 2023). Each tap is treated as an occluder of constant thickness: it closes the sectors
-// between its front and its back. Light can therefore pass behind thin objects. A slice has 32 sectors. They
-// have equal angles, as published, or equal cosine-weighted shares.
+// between its front and its back. Light can therefore pass behind thin objects. Each slice is divided into 32
+// sectors. The sectors have equal angles, as published, or equal cosine-weighted shares.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/measure/nnao/shaders/slice.glsl"
 
 uniform float thickness;     // in radii
-uniform bool equal_weights;  // sectors of equal cosine-weighted share
+uniform bool equal_weights;  // true: the sectors have equal cosine-weighted shares
 
 // Returns the position of an angle in the slice's visible half, from 0 to 1.
 float sector_place(float angle, float tilt) {

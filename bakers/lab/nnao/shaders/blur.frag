@@ -1,6 +1,6 @@
 #version 330 core
-// Runs one axis of the library's bilateral blur, for AO from other methods. A test compares the result with
-// the library's own blur.
+// Runs the library's bilateral blur along one axis, on the AO of other methods. A test compares the result
+// with the library's own blur.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
 uniform sampler2D ao_image;

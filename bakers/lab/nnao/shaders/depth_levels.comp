@@ -15,8 +15,8 @@ uniform vec2 texel;  // 1 / size
 
 shared float depths[64];
 
-// Makes a texel of the next level. The texels of the current level are `apart` threads from each other.
-// Returns 0 in threads that make no texel.
+// Makes a texel of the next coarser level. The threads that hold neighbouring texels of the current level are
+// `apart` threads from each other. Returns 0 in threads that make no texel.
 float next_level(uint apart) {
   barrier();
   uint at = gl_LocalInvocationIndex;

@@ -1,12 +1,13 @@
-// Finds which neighbours of a pixel lie on the pixel's surface, in the same way as XeGTAO's denoiser (F.
-// Strugar, S. Mccalla, Intel XeGTAO, 2021). The left, right, lower and upper neighbour have two bits each.
-// The value 0 means that an edge lies between.
+// Finds which neighbours of a pixel lie on the same surface as the pixel, in the same way as XeGTAO's denoiser
+// (F. Strugar, S. Mccalla, Intel XeGTAO, 2021). The packed value has two bits for each of the left, right,
+// lower and upper neighbour. The value 0 means that there is an edge between the pixel and this neighbour.
 
 // The depth of pixels without a surface. It is far away, but small enough that edges and weights stay finite.
 const float far_depth = 1.0e6;  // metres
 
-// There is an edge to a neighbour if the neighbour's depth differs by 1.1 % of the pixel's depth or more. The
-// same must hold after the slope between the opposite neighbours is subtracted.
+// There is an edge to a neighbour if the neighbour's depth differs from the pixel's depth by at least 1.1 % of
+// the pixel's depth. The difference must still be that large after the slope, which is computed from opposite
+// neighbours, is subtracted.
 vec4 edge_weights(float centre, vec4 neighbours) {
   vec4 steps_m = neighbours - centre;
   vec2 slope = 0.5 * (steps_m.yw - steps_m.xz);

@@ -1,7 +1,7 @@
 #version 330 core
-// Runs one axis of a version of Filament's blur, which is written from its description (Filament pull
-// requests 3060 and 3074, 2020). It has eleven taps, at every second pixel. The weights are Gaussian with a
-// standard deviation of 8 pixels. Taps at other depths get less weight.
+// Runs a version of Filament's blur along one axis. We wrote it from its description (Filament pull requests
+// 3060 and 3074, 2020). It has eleven taps, at every second pixel. The weights are Gaussian with a standard
+// deviation of 8 pixels. Taps at other depths get less weight.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 
 uniform sampler2D ao_image;

@@ -1,12 +1,12 @@
 #version 330 core
 // GTAO (J. Jimenez, X. Wu, A. Pesce, A. Jarabo, Practical realtime strategies for accurate indirect
-// occlusion, 2016) integrates two horizons per slice in closed form. Occluders fade out towards the radius.
-// The sum is divided by the sum for an open hemisphere with the same slices. An open plane therefore has AO 1
-// even with few slices.
+// occlusion, 2016) integrates two horizons per slice in closed form. An occluder has less effect the closer
+// its distance is to the radius. The sum over the slices is divided by the sum that the same slices give for
+// an open hemisphere. An open plane therefore has AO 1 even with few slices.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/measure/nnao/shaders/slice.glsl"
 
-uniform float falloff;  // where fading begins, in radii
+uniform float falloff;  // distance at which the fading begins, in radii
 
 // Returns the cosine of the horizon on one side (1 or -1).
 float horizon(Slice slice, float side, vec3 position, vec3 viewer, vec2 radius, vec2 noise) {

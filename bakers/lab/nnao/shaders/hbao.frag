@@ -6,14 +6,13 @@
 
 uniform vec2 bias_turn;  // cosine and sine of the bias of the tangent angle
 
-// Returns the sine of the tangent plane's elevation below `v`, with bias. Elevations are measured from the
-// plane perpendicular to the direction to the viewer. If they were measured from the screen plane, surfaces
-// at the border of a wide view would face away. `along` and `facing` are the components of `v` and of the
-// normal towards the viewer.
+// Returns the sine of the biased elevation of the tangent plane in the direction of `v`. Elevations are
+// measured from the plane perpendicular to the direction to the viewer. If they were measured from the screen
+// plane, surfaces at the border of a wide view would face away. `along` is the component of `v` towards the
+// viewer. `facing` is the component of the normal towards the viewer.
 float tangent_sine(vec3 v, float along, vec3 normal, vec3 viewer, float facing) {
   vec3 across = v - along * viewer;
-  vec2 slope = vec2(facing * length(across), -dot(normal, across));  // how far the plane runs, and how far it
-                                                                     // rises
+  vec2 slope = vec2(facing * length(across), -dot(normal, across));  // the slope of the tangent plane as (run, rise)
   slope *= inversesqrt(max(dot(slope, slope), 1.0e-30));
   float rise = slope.y * bias_turn.x + slope.x * bias_turn.y;
   float run = slope.x * bias_turn.x - slope.y * bias_turn.y;

@@ -1,7 +1,7 @@
 #version 330 core
 // A version of N8AO (N8python, N8AO 2.0, 2026, three.js), written from its README. It samples points in a
-// hemisphere, and occluders fade out over a separate distance. The neural denoiser, which is off by default,
-// is left out. The README does not state the fade function and the margin, so both are ours.
+// hemisphere. The effect of an occluder fades out over a separate distance. The neural denoiser, which is off
+// by default, is not included. The README does not state the fade function and the margin, so we chose both.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/lab/nnao/shaders/hemisphere.glsl"
 

@@ -1,9 +1,9 @@
 #version 330 core
-// A version of S4AO of Godot's Compatibility renderer (J. Dummer, Godot pull request 109447, 2025), which is
-// written from its description and comments. It uses a grid of 4 x 4 taps without the corners, rotated for
-// each pixel. It reads inverse depth and no normals. Inverse depth is linear on a plane, so opposite taps
-// cancel each other there. The weight of a tap is our choice: it rises to 1 where the difference of inverse
-// depth equals the falloff, and decreases beyond.
+// A version of the S4AO method of Godot's Compatibility renderer (J. Dummer, Godot pull request 109447, 2025).
+// We wrote it from the description and the comments of the pull request. It uses a grid of 4 x 4 taps without
+// the corners, which is rotated for each pixel. It reads inverse depth but no normals. Inverse depth is linear
+// on a plane, so opposite taps cancel each other there. The weight of a tap is our choice: it rises to 1 where
+// the difference of inverse depth equals the falloff, and decreases beyond.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 
 uniform float falloff;  // share of the pixel's inverse depth

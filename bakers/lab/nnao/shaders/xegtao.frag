@@ -1,9 +1,10 @@
 #version 330 core
 #extension GL_ARB_texture_gather : require
-// XeGTAO (F. Strugar, S. Mccalla, Intel XeGTAO, 2021), written from its description. It is GTAO (J. Jimenez,
-// X. Wu, A. Pesce, A. Jarabo, Practical realtime strategies for accurate indirect occlusion, 2016) with three
-// changes. Taps read one of five depth levels. Taps fade towards the tangent plane. The noise is the R2
-// sequence, indexed by the position along a Hilbert curve. The pass also writes the edges for its denoiser.
+// A version of XeGTAO (F. Strugar, S. Mccalla, Intel XeGTAO, 2021), written from its description. XeGTAO is
+// GTAO (J. Jimenez, X. Wu, A. Pesce, A. Jarabo, Practical realtime strategies for accurate indirect occlusion,
+// 2016) with three changes. Each tap reads one of five depth levels. The horizon of a distant tap fades
+// towards the tangent plane. The noise is the R2 sequence, indexed by the pixel's position along a Hilbert
+// curve. The pass also writes the edges for its denoiser.
 #include "bakers/measure/nnao/shaders/surface.glsl"
 #include "bakers/lab/nnao/shaders/edges.glsl"
 
@@ -22,9 +23,9 @@ uniform sampler2D hilbert_image;  // positions along a Hilbert curve over 64 x 6
 uniform vec2 texel;               // 1 / size
 uniform float radius_scale;
 uniform int groups;        // slices
-uniform float falloff;     // share of the radius over which taps fade
+uniform float falloff;     // fraction of the radius over which taps fade
 uniform float power;
-uniform float thin;        // thin occluders: a tap's depth difference is scaled by 1 + thin
+uniform float thin;        // compensation for thin occluders: the depth difference of a tap is scaled by 1 + thin
 uniform float output_scale;
 
 layout(location = 0) out float result;
@@ -34,7 +35,7 @@ layout(location = 2) out vec4 bent_normal;  // view space
 #endif
 
 const float pi = 3.14159265;
-const float mip_offset = 3.3;          // log2 of the tap distance (pixels) where level 0 ends
+const float mip_offset = 3.3;          // log2 of the tap distance in pixels up to which taps read level 0
 const float too_close_px = 1.3;        // smallest distance of a tap
 const float golden_ratio = 0.61803399;
 
@@ -111,9 +112,9 @@ float slice_visibility(int slice, vec2 noise, Centre centre, vec3 normal, float 
     ahead = max(ahead, tap_cosine(centre, offset_px, level, -sin_tilt));
     behind = max(behind, tap_cosine(centre, -offset_px, level, sin_tilt));
   }
-  // The mix by a twentieth is needed because open planes at a slant would be too dark otherwise. Directions
-  // that are uniform on the screen are uniform around the direction to the viewer only in the middle of the
-  // image. GTAO cancels this error by a division, but XeGTAO as published does not.
+  // Mixes in a twentieth of 1, because open planes at a slant would be too dark otherwise. The cause is that
+  // slice directions are uniform on the screen. Away from the middle of the image, they are not uniform around
+  // the direction to the viewer. GTAO cancels this error by a division, but XeGTAO as published does not.
   float projected = mix((rise * rise + facing * facing) * inverse, 1.0, 0.05);
 #ifdef NOOK_BENT_NORMALS
   vec2 mean = projected * (arc_mean(fast_acos(ahead), tilt) + arc_mean(-fast_acos(behind), tilt));
