@@ -47,7 +47,7 @@ class Option {
 
   Option required() const;
   Option check(const Check& check) const;
-  // Returns what is wrong, or nothing.
+  // `fault` must return what is wrong with the text, or an empty text.
   Option check(const std::function<std::string(const std::string&)>& fault) const;
   // Calls `seen` for each text of the option.
   Option each(const std::function<void(std::string)>& seen) const;

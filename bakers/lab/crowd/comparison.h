@@ -20,7 +20,7 @@ class EvaluatedCrowd {
   virtual ~EvaluatedCrowd() = default;
   // Evaluates the crowd with these terms (NOOK_TERM_*).
   virtual void update(std::uint32_t terms) = 0;
-  // Returns the AO of one character's vertices, as of the last update.
+  // Returns the AO that the last update computed for the vertices of one character.
   virtual std::vector<float> ao(std::uint32_t character) const = 0;
   // Returns the baked AO of the vertices in the rest pose.
   virtual std::vector<float> static_ao() const = 0;
@@ -32,7 +32,7 @@ class EvaluatedCrowd {
                                       std::span<const nook_lobe> lobes) = 0;
 };
 
-// Where a panel shows screen-space AO in addition.
+// Says on which surfaces a panel also shows screen-space AO.
 enum class ScreenSpace { nowhere, on_floor, everywhere };
 
 // Values at the points of a patch of the floor.
@@ -82,9 +82,9 @@ struct AoErrors {
   std::uint32_t rays = 0;         // rays per vertex of the reference
   double noise_floor_mse = 0;     // expected error of the reference itself
   std::size_t characters = 0;     // number of measured characters
-  bool have_neighbours = false;   // whether each of them has another character within 1 m
-  std::vector<FormErrors> forms;  // one entry for each set of terms, and one for static AO
-  double links_cut_mse_area = 0;  // share of the error that the terms of the neighbours remove
+  bool have_neighbours = false;   // true if each measured character has another character within 1 m
+  std::vector<FormErrors> forms;  // errors for each set of terms, and for static AO
+  double links_cut_mse_area = 0;  // fraction of the error that the terms of the neighbours remove
 };
 
 AoErrors measure_ao(const Subject& subject);
@@ -97,15 +97,16 @@ struct ScreenSpaceSettings {
 };
 
 // Draws the group without AO, with static AO, with several sets of Nook's terms, and with the reference.
-// Another panel shows the difference between Nook and the reference. If `screen_space` is not null, two more
-// panels show screen-space AO: alone, and on the floor together with Nook's AO on the bodies. The floor of
-// the reference then has AO that is ray traced with the same radius.
+// Another panel shows the difference between Nook and the reference. If `screen_space` is not null, there are
+// two more panels. One shows only screen-space AO. The other shows screen-space AO on the floor, together
+// with Nook's AO on the bodies. In this case, the floor of the reference panel shows AO that is ray traced
+// with the same radius.
 platform::Image ao_sheet(const Subject& subject, const ScreenSpaceSettings* screen_space);
 
 // Compares two ways to combine the shadows of several bodies with the reference: Nook's default, and one norm
 // over the spheres of all bodies. The norm uses the model's gamma in one panel and the paper's gamma 2 in
-// another. The ground does not darken, because this would hide the effect of overlapping spheres. The
-// evaluation in `subject` is the default.
+// another panel. The ground does not darken the bodies, because this would hide the effect of overlapping
+// spheres. The crowd in `subject` must use Nook's default.
 platform::Image double_shadowing_sheet(const Subject& subject, EvaluatedCrowd& one_norm,
                                        EvaluatedCrowd& one_norm_gamma_2);
 

@@ -1,4 +1,4 @@
-// Views of scenes, with the ray-traced references that methods are compared with.
+// Views of scenes. Each view has the ray-traced references that methods are compared with.
 #pragma once
 
 #include <cstdint>

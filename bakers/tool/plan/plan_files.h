@@ -1,6 +1,6 @@
 // Writes the files of `nook plan` in its folder DIR:
 //
-//   build.ninja all bakes, for Ninja; Ninja plans again when a file that the plan has read changes
+//   build.ninja     all bakes, for Ninja; Ninja plans again when a file that the plan has read changes
 //   keys/NAME.key   the key of a bake; newer than the output if the bake must run, else old
 //   tasks.txt       one line for each character with bakes that must run, the longest first
 //   plan.json       what the next plan remembers (memory.h)
