@@ -82,8 +82,8 @@ struct SurfacePoint {
 };
 
 // Points that stand in for hidden vertices. No camera sees a hidden vertex, but renderers interpolate its AO
-// over its triangles, and parts of these may be visible: a rod whose ends are in joints, a leg under a hem.
-// With the vertex's own AO, which is 0, they would be black.
+// over its triangles. Parts of these triangles may be visible, such as a rod whose ends are in joints, or a leg
+// under a hem. With the AO of the vertex, which is 0, these parts would be black.
 struct StandIns {
   struct Point {
     SurfacePoint at;
