@@ -82,8 +82,8 @@ struct SurfacePoint {
 };
 
 // Points that stand in for hidden vertices. No camera sees a hidden vertex, but renderers interpolate its AO
-// over its triangles. Parts of these triangles may be visible, such as a rod whose ends are in joints, or a leg
-// under a hem. With the AO of the vertex, which is 0, these parts would be black.
+// over its triangles. Parts of these triangles may be visible, such as a rod whose ends are in joints, or a
+// leg under a hem. With the AO of the vertex, which is 0, these parts would be black.
 struct StandIns {
   struct Point {
     SurfacePoint at;
@@ -103,10 +103,11 @@ struct StandIns {
 // gets no points. The same seed gives the same points on any number of threads.
 StandIns choose_stand_ins(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint64_t seed);
 
-// Distributes poses over all threads. Builds one BVH for each pose. Where a vertex is hidden, its target is
-// the weighted mean AO of those of its stand-ins that are visible; without any, it is the vertex's own AO.
-// The truth for errors needs no stand-ins; the targets of fits need them. The same seed gives the same
-// targets on any number of threads. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
+// Distributes poses over all threads. Builds one BVH for each pose. The target of a hidden vertex is the
+// weighted mean AO of its visible stand-ins, or its own AO if no stand-in is visible. Pass stand-ins for
+// targets that a model is fitted to, and none for the truth that errors are measured against. The same seed
+// gives the same targets on any number of threads. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns
+// false.
 AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
                              std::uint64_t seed, const Progress& progress = {},
                              const StandIns& stand_ins = {});

@@ -5,9 +5,10 @@
 RULE(body, "source_changed", at_least, 1, "the hash of the character file differs from its hash at the bake",
      "The character file has changed since the bake, so the errors compare the old model with the new file. "
      "Bake it again.")
-RULE(body, "rms_visible", at_most, 0.06, "typical error where the body is visible",
-     "The typical error is {value}, which is hard to see in motion. Look at the worst places below before you "
-     "spend more time on the bake.")
+RULE(
+    body, "rms_visible", at_most, 0.06, "typical error where the body is visible",
+    "The typical error is {value}, which is hard to see in motion. Look at the worst places below before you "
+    "spend more time on the bake.")
 RULE(body, "draft", at_least, 1, "the preset of the bake is draft",
      "This is a draft bake. `nook bake character --preset standard` takes some minutes and has a smaller "
      "error.")
@@ -17,12 +18,14 @@ RULE(body, "fitted_clips", at_most, 0, "number of clips that the bake used",
 RULE(body, "hands_share", at_least, 0.25, "share of the visible error that is on hands and fingers",
      "{percent} of the visible error is on the hands. Give `--clips` the names of clips with fists and open "
      "hands. If hands are small on the screen, no change is needed.")
-RULE(body, "feet_share", at_least, 0.25, "share of the visible error that is on the feet",
-     "{percent} of the visible error is on the feet. Give `--clips` the names of clips in which the character "
-     "crouches, kneels or stands on its toes.")
-RULE(body, "head_share", at_least, 0.35, "share of the visible error that is on head and neck",
-     "{percent} of the visible error is on head and neck. Often the cause is hair cards, eyes and teeth. They "
-     "move with one bone, so give them a separate material with AO from a texture.")
+RULE(
+    body, "feet_share", at_least, 0.25, "share of the visible error that is on the feet",
+    "{percent} of the visible error is on the feet. Give `--clips` the names of clips in which the character "
+    "crouches, kneels or stands on its toes.")
+RULE(
+    body, "head_share", at_least, 0.35, "share of the visible error that is on head and neck",
+    "{percent} of the visible error is on head and neck. Often the cause is hair cards, eyes and teeth. They "
+    "move with one bone, so give them a separate material with AO from a texture.")
 RULE(body, "worst_clip_ratio", at_least, 1.5,
      "error of the worst clip, divided by the error of the median clip",
      "The error in the clip {clip} is {value} times the error in the median clip. If players see this clip "
@@ -43,9 +46,10 @@ RULE(body, "noise_share", at_least, 0.25, "share of the squared error that is no
 RULE(body, "hidden_share", at_least, 0.35, "share of the vertices that no light reaches, over all poses",
      "No light reaches {percent} of the vertices: they are inside the body or under clothes. Delete surfaces "
      "that are never seen. The model becomes smaller, and the bake places its key points on the rest.")
-RULE(body, "world_casters", at_most, 0, "number of world casters, the capsules that darken floors and walls",
-     "The model has no world casters, so the character does not darken floors and walls. Bake it again to add "
-     "them.")
+RULE(
+    body, "world_casters", at_most, 0, "number of world casters, the capsules that darken floors and walls",
+    "The model has no world casters, so the character does not darken floors and walls. Bake it again to add "
+    "them.")
 RULE(body, "poses", at_most, 19, "number of measured poses",
      "Only {value} poses were measured, so the lists of the worst clips and places are uncertain. Give a "
      "source file with more clips, or a larger `--samples-per-clip`.")
@@ -59,11 +63,13 @@ RULE(probes, "irradiance_relative", at_least, 0.1, "error of irradiance, in unit
 RULE(probes, "irradiance_relative", at_most, 0.02, "error of irradiance, in units of the map's mean",
      "The light on surfaces is off by only {percent}. For diffuse surfaces, fewer lobes are enough. "
      "Reflections profit from more lobes.")
-RULE(probes, "below_share", at_least, 0.005, "share of the directions of all probes in which irradiance is "
-     "below 0",
-     "Irradiance is below 0 in {percent} of the directions, which shows as black patches. The cause is strong "
-     "light from few directions. Use more lobes (`--lobes`), or draw the sun as a separate light "
-     "(`--direct`).")
+RULE(
+    probes, "below_share", at_least, 0.005,
+    "share of the directions of all probes in which irradiance is "
+    "below 0",
+    "Irradiance is below 0 in {percent} of the directions, which shows as black patches. The cause is strong "
+    "light from few directions. Use more lobes (`--lobes`), or draw the sun as a separate light "
+    "(`--direct`).")
 RULE(probes, "dark_share", at_least, 0.2, "share of the probes with less than a hundredth of the mean light",
      "{percent} of the probes are black. They may be inside walls: change the counts in `--grid`.")
 RULE(probes, "probes", at_least, 20000, "number of probes in the file",
@@ -75,7 +81,8 @@ RULE(material, "se_db", at_most, 25, "signal-to-error ratio in decibels",
      "higher `--ranks` or more `--clusters`.")
 RULE(material, "bytes", at_least, 16e6, "bytes of the file",
      "The file is large. First lower `--ranks`: the size grows with each rank.")
-RULE(material, "negative_share", at_least, 0.02, "share of the texels in the pictures whose radiance is below "
+RULE(material, "negative_share", at_least, 0.02,
+     "share of the texels in the pictures whose radiance is below "
      "-0.02 (white has 1)",
      "{percent} of the texels in these pictures have negative radiance, which shaders clamp to black. Use "
      "higher `--ranks`.")
@@ -86,9 +93,10 @@ RULE(transfer, "open_share", at_least, 0.9,
      "and then you need no transfer file.")
 RULE(transfer, "bytes_per_vertex", at_least, 1000, "bytes in the file per vertex",
      "Each vertex takes {value} bytes. Fewer lobes (`--lobes`) take less; 162 are enough for soft light.")
-RULE(transfer, "bounces", at_most, 0, "number of bounces of light in the file",
-     "The file contains only direct light, so caves and folds are too dark. `--bounces 2` adds the light that "
-     "the shape reflects onto itself.")
+RULE(
+    transfer, "bounces", at_most, 0, "number of bounces of light in the file",
+    "The file contains only direct light, so caves and folds are too dark. `--bounces 2` adds the light that "
+    "the shape reflects onto itself.")
 
 RULE(frame, "not_finite", at_least, 1, "number of pixels whose recorded AO or depth is not a number",
      "In some pixels, AO or depth is not a number: the application wrote NaN or infinity into its depth or "
