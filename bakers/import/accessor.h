@@ -1,5 +1,5 @@
-// Reads glTF accessors with every bound checked: tinygltf checks only some of them. The time is linear in the
-// elements that are read.
+// Reads glTF accessors and checks every bound, because tinygltf checks only some of them. The time is linear
+// in the elements that are read.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -11,7 +11,8 @@
 namespace nook::bake {
 
 // Returns the number of elements that an accessor declares. Check it before you read, because an accessor
-// without a buffer view costs no bytes in the file. Fails with BAD_FILE if there is no such accessor.
+// without a buffer view costs no bytes in the file. Fails with BAD_FILE if the file has no accessor with this
+// index.
 std::size_t element_count(const tinygltf::Model& model, int accessor, const std::string& what);
 
 // Components in a row as floats: normalised integers become [0, 1] or [-1, 1], plain integers keep their

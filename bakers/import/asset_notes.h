@@ -1,4 +1,4 @@
-// What a glTF file says about its owner and its licence.
+// Reads from a glTF file who owns it and which licence it has.
 #pragma once
 
 #include <filesystem>
@@ -8,15 +8,16 @@
 
 namespace nook::bake {
 
-// Texts are as in the file, and empty where it says nothing.
+// Each text is copied from the file. It is empty if the file does not have it.
 struct AssetNotes {
   std::string copyright;  // asset.copyright
   std::string generator;  // asset.generator
-  // Of asset.extras, where exporters of model libraries write them.
+  // From asset.extras, where the exporters of model libraries write these texts.
   std::string title, author, licence, source;
 };
 
-// Fails with BAD_FILE, as the import does; the caller adds the name of the file.
+// Fails with BAD_FILE if the import would fail. The message does not name the file; the caller must add the
+// name.
 AssetNotes read_asset_notes(const std::filesystem::path& path, LinkedFiles linked = LinkedFiles::folder);
 
 }  // namespace nook::bake

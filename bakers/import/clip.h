@@ -1,4 +1,4 @@
-// Clips: keyframed node transforms, and the poses they give.
+// Defines clips, which are keyframed node transforms, and computes poses from them.
 #pragma once
 
 #include <cstdint>
@@ -28,18 +28,20 @@ struct Channel {
 };
 
 struct Clip {
-  std::string name;      // unique in its file
-  float duration_s = 0;  // last key of all channels minus the first: files may begin later than 0
-  float start_s = 0;     // the first key on the file's own time line
+  std::string name;  // unique in its file
+  float duration_s =
+      0;  // time from the first key to the last one, over all channels; the first key may be later than 0
+  float start_s = 0;  // time of the first key in the file
   std::vector<Channel> channels;
 };
 
-// Overwrites what the clip animates and leaves the rest. Time counts from the clip's first key and is clamped
-// to its length.
+// Overwrites the transforms that the clip animates, and does not change the others. `time_s` is relative to
+// the clip's first key, and is clamped to the clip's duration.
 void apply_clip(const Clip& clip, float time_s, std::vector<Trs>& locals);
 
-// Returns bone matrices from rest space to world, rigid or uniformly scaled. Shear and uneven scale are
-// removed, and `deviation` (may be null) receives how much each bone had, relative.
+// Returns bone matrices from rest space to world, rigid or uniformly scaled. The function removes shear and
+// non-uniform scale. If `deviation` is not null, it receives the relative size of the removed part for each
+// bone.
 Pose bone_matrices(const ImportedCharacter& character, const std::vector<Trs>& locals,
                    std::vector<double>* deviation);
 
@@ -47,7 +49,7 @@ Pose sample_clip(const ImportedCharacter& character, std::size_t clip, float tim
 
 Pose rest_pose(const ImportedCharacter& character);
 
-// Fails with INVALID_ARGUMENT and lists the names that exist.
+// If no clip has this name, fails with INVALID_ARGUMENT. The message lists the existing names.
 std::size_t find_clip(const ImportedCharacter& character, std::string_view name);
 
 }  // namespace nook::bake

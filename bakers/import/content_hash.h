@@ -1,6 +1,6 @@
-// The hash of what a bake reads of a file: geometry, skin, skeleton and clips as they were imported. Two
-// files with the same content have the same hash, however they store it: .glb or .gltf, with other textures,
-// materials, generators or names of nodes.
+// Hashes the imported data that a bake uses: geometry, skin, skeleton and clips. Two files with the same data
+// have the same hash. It does not matter whether they are .glb or .gltf. Textures, materials, generators and
+// node names do not change the hash.
 #pragma once
 
 #include <bit>

@@ -1,4 +1,4 @@
-// Files that are given in place of glTF by mistake.
+// Recognises files of other formats that a user passes instead of glTF by mistake.
 #pragma once
 
 #include <cstddef>
@@ -6,8 +6,8 @@
 
 namespace nook::bake {
 
-// Returns words such as "an FBX file" for a known format that is not glTF, by its first bytes; NULL for
-// others.
+// Recognises known formats other than glTF by the first bytes, and returns a phrase such as "an FBX file".
+// Returns NULL for all other data.
 const char* foreign_format(std::span<const std::byte> bytes);
 
 }  // namespace nook::bake

@@ -20,8 +20,8 @@ void check_types(const tinygltf::Model& model);
 //   - indices that mean a primitive restart;
 //   - bounds that do not match;
 //   - attributes of forbidden types.
-// Nothing here fails; whoever reads an accessor reports what cannot be read. Looks at each accessor once, and
-// at 2^26 elements at most, so that the time is linear in the file.
+// This function never fails. The code that later reads an accessor reports an unreadable one. Reads each
+// accessor once, and at most 2^26 elements, so the time is linear in the file size.
 std::vector<std::string> document_warnings(const tinygltf::Model& model);
 
 }  // namespace nook::bake

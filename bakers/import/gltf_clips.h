@@ -1,4 +1,4 @@
-// Animations of a glTF file as clips.
+// Converts the animations of a glTF file to clips.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -10,8 +10,8 @@
 
 namespace nook::bake {
 
-// Leaves out channels of morph targets and clips that move no node, with a warning for both. Fails with
-// BAD_FILE.
+// Leaves out the channels of morph targets, and clips that do not move a node. Adds a warning in both cases.
+// Fails with BAD_FILE.
 std::vector<Clip> read_clips(const tinygltf::Model& model, const NodeTree& nodes,
                              std::vector<std::string>& warnings);
 

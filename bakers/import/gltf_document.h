@@ -1,4 +1,4 @@
-// Bytes to a parsed glTF document, and its node tree.
+// Parses the bytes of a glTF document, and makes its node tree.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -13,11 +13,11 @@
 
 namespace nook::bake {
 
-// Images are not decoded. skip: image files are not opened. keep: tinygltf::Image::image holds the encoded
-// bytes that URIs name; empty if they could not be read.
+// Images are never decoded. With `skip`, image files are not opened. With `keep`, tinygltf::Image::image
+// contains the encoded bytes of the image at the URI. It is empty if the image could not be read.
 enum class Images { skip, keep };
 
-// The folder of the files that a document names.
+// The folder with the files that a document refers to.
 struct FileAccess {
   std::string folder;  // empty: no file is opened
   LinkedFiles linked = LinkedFiles::folder;
@@ -28,8 +28,8 @@ struct FileAccess {
 tinygltf::Model parse_gltf(std::span<const std::byte> bytes, const FileAccess& files,
                            Images images = Images::skip);
 
-// Fails with BAD_FILE on cycles, second parents, indices out of range and transforms that are not finite. The
-// time is linear in the nodes.
+// Fails with BAD_FILE if the nodes have a cycle, a node has two parents, an index is out of range, or a
+// transform is not finite. The time is linear in the nodes.
 NodeTree read_nodes(const tinygltf::Model& model);
 
 }  // namespace nook::bake

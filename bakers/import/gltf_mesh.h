@@ -1,4 +1,4 @@
-// Mesh primitives of a glTF file, appended to a mesh in file order.
+// Appends the mesh primitives of a glTF file to a mesh, in file order.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -11,7 +11,7 @@
 
 namespace nook::bake {
 
-// Morph targets at the weights that a file gives them by default: they are part of the shape that it shows.
+// Applies morph targets with their default weights in the file, because they are part of the visible shape.
 
 // Returns the morph weights of a node's mesh: the node's own weights, or else the mesh's. Empty if all are 0.
 std::vector<double> default_morph_weights(const tinygltf::Mesh& mesh, const tinygltf::Node& node);
