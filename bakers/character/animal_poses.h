@@ -18,7 +18,7 @@ enum class AnimalAct : std::uint8_t { rest, gait, leap, free };
 constexpr float rest_share = 0.3f, gait_share = 0.25f, leap_share = 0.25f;
 AnimalAct random_act(PoseRandom& random);
 
-// One leg: the joints from the hip to the end of the leg, which stands on the ground in the rest pose.
+// One leg: the joints from the hip to the end of the leg, that stands on the ground in the rest pose.
 struct LegChain {
   std::vector<std::size_t> bones;  // from the hip; without the foot
   std::vector<std::size_t> foot;
@@ -38,7 +38,8 @@ class AnimalRig {
 
   // Returns the turns of a leg's bones, from the hip on, that bring the end of the leg to `place`. `place` is
   // in the space of the hip's parent at rest. If it is out of reach, the leg stretches towards it. bend_share
-  // has a factor for the bend of each joint after the hip. Joints without a factor have 1.
+  // contains a factor for the bend of each joint after the hip. If it is shorter than the leg, the factor of
+  // the remaining joints is 1.
   std::vector<Mat3x4> reach(const LegChain& leg, Vec3 place, std::span<const float> bend_share = {}) const;
 
  private:

@@ -1,5 +1,5 @@
-// Describes one pose of a human body independent of any rig: random turns within the ranges and couplings of
-// the human body.
+// Describes one pose of a human body independently of any rig. The turns of the joints are random, within the
+// ranges and couplings of the human body.
 #pragma once
 
 #include <numbers>

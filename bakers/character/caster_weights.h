@@ -11,9 +11,9 @@
 namespace nook::bake {
 
 struct CasterFitSettings {
-  std::size_t poses = 48;  // at most this many poses, evenly chosen
-  // Random points and normals per pose. Most are 0.3 to 8 body radii from the body's centre. A tenth is near
-  // the body's surface, for neighbours that touch the body.
+  std::size_t poses = 48;  // maximum number of poses, picked at even intervals
+  // Random points and normals per pose. Most points are 0.3 to 8 body radii from the centre of the body. A
+  // tenth of the points are near its surface, to represent neighbours that touch the body.
   std::size_t points_per_pose = 600;
   std::uint32_t rays = 256;  // per point
   std::uint64_t seed = 1;

@@ -29,8 +29,8 @@ struct BakeSettings {
   std::uint64_t seed = 1;
   Kernel kernel;
   // Initial saturation of each key point, up to max_saturation (model.h). The fit changes it. If it is 0, no
-  // shadow saturates. Saturation is not used with FitMethod::paper, or if gamma is learned or not 1, because
-  // gamma has the same purpose.
+  // shadow saturates. Saturation is not used with FitMethod::paper. It is also not used if gamma is learned
+  // or differs from 1, because gamma has the same purpose.
   float saturation = 0.5f;
   bool learn_gamma = false;  // chooses the kernel.gamma with the lowest held-out error in short fits
   FitMethod fit = FitMethod::nook;
@@ -54,8 +54,8 @@ struct CurvePoint {
 struct BakeReport {
   double seconds_raytrace = 0, seconds_fit = 0;
   std::size_t iterations = 0, train_poses = 0;
-  // The errors are over all vertices, with clamped predictions. These two are before and after the fit, on
-  // some of the fitted poses, which are traced again with many rays:
+  // The errors are over all vertices, with clamped predictions. mse_initial is before the fit, mse_train
+  // after it. Both use some of the fitted poses, traced again with many rays:
   double mse_initial = 0, mse_train = 0;
   double noise_floor_mse = 0;  // noise floor of these rays
   // The error on the held-out poses, including the noise from their few rays. It decides when the fit stops:

@@ -20,13 +20,14 @@ struct InitialSphere {
 // Places spheres by eigen-analysis of the geometry that each bone moves, weighted by skin weight and Voronoi
 // area. Spreads about sqrt(l3 / l1) spheres of radius sqrt(l1) along the major axis (l1 is the smallest
 // eigenvalue, l3 the largest). Scales the counts so that all bones together get at most `sphere_count`
-// spheres. Each bone with geometry gets at least one sphere. If there are too few spheres, bones with the
-// largest area come first.
+// spheres. Each bone with geometry gets at least one sphere. If sphere_count is less than the number of these
+// bones, only the bones with the largest area get a sphere.
 std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                            std::size_t sphere_count);
 
 // Returns unit vectors from each vertex's optimised centre of rotation to the vertex (Le & Hodgins 2016, with
-// the Gaussian weight similarity of appendix B). Where both points coincide, returns the mesh normal.
+// the Gaussian weight similarity of appendix B). If the centre of rotation is at the vertex, returns the mesh
+// normal.
 std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                              std::span<const Vec3> mesh_normal);
 

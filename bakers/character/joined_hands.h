@@ -22,7 +22,7 @@ class JoinedHands {
   bool possible() const { return arms_[0].index_knuckle >= 0 && arms_[1].index_knuckle >= 0; }
 
   // Draws a place in front of the trunk and moves both arms there. with_fingers closes the fingers as well.
-  // Nothing else moves. possible() must be true.
+  // No other joints move. Call this only if possible() returns true.
   void join(std::vector<JointMotion>& motions, bool with_fingers, Random& random) const;
 
  private:

@@ -12,10 +12,10 @@ namespace nook::bake {
 
 // A joint's motion relative to its parent in the body's tree, in rest space.
 struct JointMotion {
-  Vec3 turn;        // about the joint's rest origin: axis times angle, radians
-  Vec3 shift;       // moves the joint's origin, metres
-  float scale = 1;  // about the same origin; a non-uniform scale becomes the uniform scale with the same
-                    // volume
+  Vec3 turn;   // about the joint's rest origin: axis times angle, radians
+  Vec3 shift;  // moves the joint's origin, metres
+  float scale =
+      1;  // about the same origin; replaces a non-uniform scale by the uniform one with the same volume
 };
 
 // Returns the axis times the angle of the rotation nearest to the matrix's three rows, made orthonormal in

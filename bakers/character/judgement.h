@@ -21,7 +21,7 @@ struct JudgedPoses {
     between_frames,  // halfway between the fitted frames of the clips
     generated,       // automatic poses with another seed, because the file has no clip
     turned,          // an object of one bone
-    recorded,        // every fourth pose of those that were given for calibration
+    recorded,        // every fourth of the poses that were passed for calibration
   };
   Source source = Source::generated;
   std::vector<Pose> poses;
@@ -49,7 +49,7 @@ struct VisibleErrors {
   double oracle = 0;
 };
 
-// Measures against two tracings of the poses with independent rays.
+// Compares the model with two traced references of the poses, which use independent rays.
 VisibleErrors visible_errors(const SkinnedMesh& mesh, const CharacterModel& model,
                              std::span<const Pose> poses, const AoTargets& first, const AoTargets& second);
 

@@ -11,7 +11,7 @@
 namespace nook::bake {
 
 // The inner loops of the non-linear layer: the shadow of one sphere on all key points, and its gradient. The
-// arithmetic is the same as in sdk/src/character/kernel.h. This is separate code because it also computes
+// arithmetic is the same as in sdk/src/character/kernel.h. The code is separate because it also computes
 // derivatives.
 
 // Arrays of count values (a multiple of 16), one for each coordinate.
