@@ -1,5 +1,5 @@
-// Collects the colour textures of glTF materials and each of their images once. The time is linear in the
-// textures and in the bytes of the images.
+// Collects the colour textures of glTF materials, and their images. Each image is collected only once. The
+// time is linear in the textures and in the bytes of the images.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -17,11 +17,11 @@ class GltfTextures {
   // The document must be parsed with Images::keep and outlive this object.
   explicit GltfTextures(const tinygltf::Model& model) : model_(model) {}
 
-  // `what` names the texture in messages. Fails with BAD_FILE on indices out of range, images without bytes
-  // and coordinate sets above 1.
+  // `what` names the texture in messages. Fails with BAD_FILE if an index is out of range, an image has no
+  // bytes, or the index of the coordinate set is above 1.
   TextureUse use(const tinygltf::TextureInfo& info, const std::string& what);
 
-  // Returns the images in the order of their first use. TextureUse::image counts in this order.
+  // Returns the images in the order of their first use. TextureUse::image is an index into this list.
   std::vector<EncodedImage> take_images() { return std::move(images_); }
 
  private:

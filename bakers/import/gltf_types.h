@@ -1,4 +1,4 @@
-// The types that glTF 2.0 allows for what an accessor is used for.
+// Knows which types glTF 2.0 allows for each use of an accessor.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -25,12 +25,12 @@ enum class AccessorUse {
   rotation,
 };
 
-// True where the specification, with KHR_mesh_quantization if the file uses it, allows the accessor's element
-// and component type.
+// Returns true if the specification allows the accessor's element and component type for this use. Includes
+// the types of KHR_mesh_quantization if the file uses that extension.
 bool has_allowed_type(const tinygltf::Model& model, const tinygltf::Accessor& accessor, AccessorUse use);
 
 // Fails with BAD_FILE if the type is not allowed. `what` names the use, as in `mesh 0 primitive 1.JOINTS_0`.
-// Does nothing if there is no such accessor, because readers report it.
+// Does nothing if the accessor does not exist, because the code that reads it reports that.
 void require_allowed_type(const tinygltf::Model& model, int accessor, AccessorUse use,
                           const std::string& what);
 

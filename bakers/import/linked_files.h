@@ -1,11 +1,12 @@
-// Which other files a glTF file may name.
+// Defines which other files a glTF file may refer to.
 #pragma once
 
 namespace nook::bake {
 
-// folder: only files in the folder of the file that names them, or below it, so that a downloaded file cannot
-// have others read. Symbolic links are followed as long as they stay there, because an archive may bring its
-// own. anywhere: "../", absolute names and links that lead outside as well.
+// With `folder`, a glTF file may refer only to files in its own folder or in subfolders. So a downloaded file
+// cannot make Nook read other files of the user. Symbolic links are followed if they lead to a place in that
+// folder, because an archive may contain such links. With `anywhere`, "../", absolute paths and links to
+// other folders are allowed as well.
 enum class LinkedFiles { folder, anywhere };
 
 }  // namespace nook::bake

@@ -1,4 +1,4 @@
-// Buffer views compressed by EXT_meshopt_compression or KHR_meshopt_compression.
+// Decompresses buffer views that use EXT_meshopt_compression or KHR_meshopt_compression.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -10,7 +10,7 @@
 
 namespace nook::bake {
 
-// A compressed view as the file describes it, not yet checked against the buffers.
+// A compressed view as described in the file. It is not yet checked against the buffers.
 struct CompressedView {
   enum class Mode { attributes, triangles, indices };
   enum class Filter { none, octahedral, quaternion, exponential };
@@ -21,15 +21,16 @@ struct CompressedView {
   Filter filter = Filter::none;
 };
 
-// Fails with BAD_FILE on numbers and names that the extension does not have.
+// Fails with BAD_FILE if a value or a name is not allowed by the extension.
 std::vector<CompressedView> find_compressed_views(const nlohmann::json& document);
 
-// True for buffers that are only room for decompressed views.
+// Returns true if a buffer only reserves space for decompressed views.
 bool is_fallback_buffer(const nlohmann::json& buffer);
 
-// Decompresses the views into buffers that it appends, and points the views to them. Fails with BAD_FILE; the
-// message names the view. The size of the compressed bytes limits the memory before it is taken. The limit
-// for all views is 2 GiB. The time is linear in the memory.
+// Decompresses the views into new buffers of the model. The views then refer to these buffers. Fails with
+// BAD_FILE; the message names the view. Before memory is allocated, its size is checked against a limit that
+// depends on the size of the compressed bytes. All views together may take 2 GiB. The time is linear in the
+// decompressed size.
 void decompress_views(const std::vector<CompressedView>& views, tinygltf::Model& model);
 
 }  // namespace nook::bake

@@ -15,11 +15,11 @@ struct Node {
   std::string name;
   std::int32_t parent = -1;
   Trs local;                     // default pose
-  std::optional<Affine> matrix;  // given instead of local; no clip animates such a node
+  std::optional<Affine> matrix;  // used instead of `local`; clips never animate such a node
 };
 
 struct NodeTree {
-  std::vector<Node> nodes;           // in the file's order
+  std::vector<Node> nodes;           // in the order of the file
   std::vector<std::uint32_t> order;  // every node once, parents before children
 
   std::size_t size() const { return nodes.size(); }
@@ -30,18 +30,18 @@ void sort_parents_first(NodeTree& tree);
 
 Affine default_local(const Node& node);
 
-// World matrices of all nodes for the given local transforms, one for each node (nodes with a matrix keep
-// it).
+// Returns the world matrices of all nodes. `locals` contains one local transform for each node. It is ignored
+// for nodes with a matrix.
 std::vector<Affine> world_transforms(const NodeTree& tree, const std::vector<Trs>& locals);
 std::vector<Affine> default_world_transforms(const NodeTree& tree);
 
 // Returns the default local transforms of all nodes. Sampling a clip begins with them.
 std::vector<Trs> default_locals(const NodeTree& tree);
 
-// Makes names that can be looked up: never empty, never twice.
+// Makes names unique and not empty, so that they can be looked up.
 
-// An empty name becomes `stem` and its index ("clip_0"). A name that came before gets the first free suffix
-// "_2", "_3", ...
+// An empty name becomes `stem` and its index ("clip_0"). A name that already occurred gets the first free
+// suffix "_2", "_3", ...
 std::vector<std::string> unique_names(const std::vector<std::string>& names, std::string_view stem);
 
 }  // namespace nook::bake

@@ -1,5 +1,5 @@
-// The front of a posed mesh. A bone that mirrors, by a negative scale of its joint, turns the triangles round
-// that follow it: their corners go round the back counter-clockwise.
+// Finds the front sides of a posed mesh. If a joint has a negative scale, its bone mirrors the triangles that
+// follow it. Their corners are then clockwise as seen from the front.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@
 
 namespace nook::bake {
 
-// The triangles of a mesh in a pose, each with its front outside, for normals and for points on the surface.
-// A vertex is mirrored where its blended matrix has a negative determinant. Triangles of mirrored vertices
-// are turned round; a triangle between mirrored and other vertices has no front and is left out. Returns
-// mesh.triangle where no bone mirrors, and `storage` otherwise.
+// Returns the triangles of a mesh in a pose, each with its front outside. Use them for normals and for points
+// on the surface. A vertex is mirrored if its blended matrix has a negative determinant. If all three
+// vertices of a triangle are mirrored, the order of its corners is reversed. If only some are mirrored, the
+// triangle has no front and is left out. Returns mesh.triangle if no bone mirrors, and `storage` otherwise.
 std::span<const std::array<std::uint32_t, 3>> posed_triangles(
     const SkinnedMesh& mesh, const Pose& pose, std::vector<std::array<std::uint32_t, 3>>& storage);
 
-// vertex_normals of posed_triangles. positions: of skin_positions.
+// Computes the vertex_normals of posed_triangles. Pass the result of skin_positions as `positions`.
 void posed_normals(const SkinnedMesh& mesh, const Pose& pose, std::span<const Vec3> positions,
                    std::vector<Vec3>& out);
 

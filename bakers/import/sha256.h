@@ -11,7 +11,7 @@
 
 namespace nook::bake {
 
-// Hashes bytes that arrive in pieces; how they are cut into pieces does not matter.
+// Hashes bytes that are passed in pieces. The hash does not depend on the sizes of the pieces.
 class Sha256 {
  public:
   void add(std::span<const std::byte> bytes);
@@ -24,7 +24,7 @@ class Sha256 {
 
   std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                                       0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
-  std::uint64_t size_ = 0;                    // of all bytes so far
+  std::uint64_t size_ = 0;                    // number of bytes so far
   std::array<std::byte, block_size> rest_{};  // the last size_ % block_size bytes
 };
 

@@ -1,5 +1,5 @@
-// Decides which nodes of a file are in as geometry. Every import calls it, so that all bakes of a file see
-// the same meshes.
+// Decides which nodes of a file are included as geometry. Every import uses this code, so that all bakes of a
+// file use the same meshes.
 #pragma once
 
 #include <tiny_gltf.h>
@@ -15,45 +15,47 @@
 
 namespace nook::bake {
 
-// The reason that the mesh of a node is in or out. A node that is out still poses its children.
+// Says whether the mesh of a node is included, or why it is left out. Even if the mesh is left out, the node
+// still transforms its children.
 enum class NodeState : std::uint8_t {
   in,
   no_mesh,
   other_scene,  // not below a root of the default scene
   hidden,       // the node or an ancestor is invisible by KHR_node_visibility
-  no_size,      // without a skin, and the node or an ancestor is scaled to 0 on all axes
-  lower_level,  // of detail, by name or by MSFT_lod
+  no_size,      // the node has no skin, and it or an ancestor is scaled to 0 on all axes
+  lower_level,  // a lower level of detail, according to its name or MSFT_lod
   not_chosen,   // no pattern of MeshSelection::only matches
   left_out      // a pattern of MeshSelection::without matches
 };
 
-// The name of a node or mesh, or node_0, mesh_0 and so on without one.
+// Returns the name of a node or mesh. If it has no name, returns node_0, mesh_0 and so on.
 std::string node_label(const tinygltf::Model& model, std::size_t node);
 std::string mesh_label(const tinygltf::Model& model, int mesh);
 
-// One state for each node. Where only lower levels would remain, the finest of them are in. Fails with
-// BAD_FILE on indices out of range, and with INVALID_ARGUMENT on a pattern that matches no mesh of the scene.
-// Linear in nodes times patterns.
+// Returns one state for each node. If only lower levels of detail would remain, includes the finest of them.
+// Fails with BAD_FILE if an index is out of range. Fails with INVALID_ARGUMENT if a pattern matches no mesh
+// of the scene. The time is O(nodes * patterns).
 std::vector<NodeState> node_states(const tinygltf::Model& model, const NodeTree& nodes,
                                    const MeshSelection& selection);
 
 struct ShownNodes {
   std::vector<NodeState> state;    // of each node
-  std::vector<std::string> notes;  // names what the file itself leaves out, one sentence for each reason
+  std::vector<std::string> notes;  // what the file itself hides or excludes, one sentence for each reason
 
   bool shows(std::size_t node) const { return state[node] == NodeState::in; }
 };
 
-// As node_states. Fails with BAD_FILE where the scene has meshes and all of them are out, and where instances
-// (EXT_mesh_gpu_instancing) would exceed the limits of vertices and triangles or belong to a skin.
+// Calls node_states, and fails in the same cases. Also fails with BAD_FILE if the scene has meshes but all of
+// them are left out. Instances (EXT_mesh_gpu_instancing) cause BAD_FILE if they exceed the limits of vertices
+// and triangles, or if a skinned mesh has them.
 ShownNodes choose_nodes(const tinygltf::Model& model, const NodeTree& nodes, const MeshSelection& selection);
 
-// Returns the matrices from a node's mesh to the node: one for each instance, or else the identity. Fails
-// with BAD_FILE.
+// Returns the matrices from the space of a node's mesh to the node. There is one for each instance. Without
+// instances, returns the identity. Fails with BAD_FILE.
 std::vector<Affine> mesh_instances(const tinygltf::Model& model, std::size_t node);
 
-// The number after LOD at the end of a name, in any case and behind the beginning, a space or one of _ . -;
-// -1 without one.
+// Returns the number after "LOD" at the end of a name, or -1 if there is none. "LOD" may be in upper or lower
+// case. It must be at the beginning of the name, or after a space or one of _ . -
 int level_of_name(std::string_view name);
 
 bool matches_pattern(std::string_view pattern, std::string_view name);
