@@ -9,7 +9,8 @@
 namespace nook::bake {
 namespace {
 
-// An accessor without a buffer view costs no bytes in the file, so that nothing else bounds its memory.
+// An accessor without a buffer view takes no bytes in the file. Without this limit, a small file could make
+// us allocate any amount of memory.
 constexpr std::size_t max_elements = std::size_t{1} << 24;
 
 template <typename T>
@@ -138,8 +139,8 @@ const tinygltf::Accessor& checked_accessor(const tinygltf::Model& model, int ind
   return model.accessors[index];
 }
 
-// Calls store(element, component, pointer) for each component of the first `most` elements, dense data first,
-// then sparse overrides; elements never stored are zeros.
+// Calls store(element, component, pointer) for each component of the first `most` elements, Dense data comes
+// first, then the sparse overrides. It is not called for elements that are not stored; these are zero.
 template <typename Prepare, typename Store>
 void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int wanted_components,
            std::size_t most, const std::string& what, Prepare prepare, Store store) {

@@ -17,10 +17,11 @@ using Triangle = std::array<std::uint32_t, 3>;
 
 constexpr std::size_t all_samples = std::size_t{1} << 16, most_of_part = 512, fewest_of_part = 16;
 constexpr std::size_t most_parts = std::size_t{1} << 16;
-// Limits the time on files whose triangles all lie on each other. What is found until then is enough.
+// Limits the time for files whose triangles all lie on each other. The contacts found up to the limit are
+// sufficient.
 constexpr std::size_t most_candidates = 256, most_tests = std::size_t{1} << 26;
 constexpr float reach_of_size = 0.02f;  // relative to the diagonal of a part
-constexpr float least_cosine = 0.7f;    // for surfaces that face the same way, or each other
+constexpr float least_cosine = 0.7f;    // for both orientations, along and facing
 constexpr float same_plane = 0.01f;     // relative to the reach
 
 struct Box {
@@ -35,11 +36,11 @@ struct Box {
   }
 };
 
-// How another part lies where the line along a sample's normal crosses it.
+// How another part is oriented at the point where the line along a sample's normal crosses it.
 enum class Lie : std::uint8_t {
   along,   // faces the same way
   facing,  // in front of the sample, with its front towards it
-  behind   // behind the sample or in its place, and faces the other way: the other side of a sheet
+  behind   // behind the sample or at the same place, and faces the other way, like the other side of a sheet
 };
 
 // The point nearest to a sample where its normal crosses another part.
@@ -52,9 +53,9 @@ struct Hit {
 struct Sample {
   Vec3 at, normal;
   float reach = 0;
-  double area = 0;  // area that the sample stands for
+  double area = 0;  // area that the sample represents
   std::uint32_t part = 0;
-  std::vector<Hit> hits;  // the nearest of each other part, one for each way that it lies
+  std::vector<Hit> hits;  // for each other part, the nearest hit of each orientation
 };
 
 constexpr std::size_t most_hits = 16;
@@ -129,7 +130,7 @@ struct Mesh {
   Vec3 face(std::size_t t) const { return cross(corner(t, 1) - corner(t, 0), corner(t, 2) - corner(t, 0)); }
 };
 
-// Points spread over a part by area, the same in every run.
+// Adds points that are spread over a part in proportion to area. Every run gives the same points.
 void add_samples(const Mesh& mesh, std::size_t part, std::size_t count, std::vector<Sample>& out) {
   const std::size_t first = mesh.begin(part), end = mesh.parts.all[part].end_triangle;
   Box box;
@@ -163,7 +164,7 @@ void add_samples(const Mesh& mesh, std::size_t part, std::size_t count, std::vec
   }
 }
 
-// Returns the parameter of a line where it goes through a triangle, or NaN.
+// Returns the line parameter at which a line crosses a triangle, or NaN if it does not cross it.
 float crossing(Vec3 at, Vec3 direction, Vec3 a, Vec3 b, Vec3 c) {
   constexpr float slack = 1e-5f;  // for points on an edge that two triangles share
   const Vec3 ab = b - a, ac = c - a, p = cross(direction, ac);
@@ -228,11 +229,11 @@ void find_hits(const Mesh& mesh, std::vector<Sample>& samples) {
   }
 }
 
-// A node, or a primitive where two primitives of one node are compared.
+// A node. If two primitives of one node are compared, it is a primitive.
 using Surface = std::array<std::uint32_t, 2>;
 constexpr std::uint32_t whole_node = ~0u;
 
-// Sums over the samples of one surface that see another. Heights are in reaches.
+// Sums over those samples of one surface that hit another surface. Heights are in units of the reach.
 struct Contact {
   double area = 0, height = 0, height_square = 0;
 };
@@ -298,8 +299,9 @@ std::set<std::array<float, 3>> places_of(const Mesh& mesh, const Surface& surfac
   return places;
 }
 
-// True if half of the vertices of one surface are vertices of the other. Levels of detail that keep a part of
-// the vertices lie inside a convex body, so that they do not go through its surface.
+// Returns true if half of the vertices of one surface are also vertices of the other. This finds levels of
+// detail that keep some of the vertices of a convex body. They lie inside the body and do not cross its
+// surface.
 bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   std::set<std::array<float, 3>> few = places_of(mesh, a), many = places_of(mesh, b);
   if (few.size() > many.size()) few.swap(many);
@@ -308,7 +310,7 @@ bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   return 2 * shared >= few.size();
 }
 
-// True for a mesh and its copy that was pushed along its normals.
+// Returns true for a mesh and a copy of it that was moved outwards along its normals.
 bool have_equal_counts(const Mesh& mesh, const Surface& a, const Surface& b) {
   std::size_t of_a = 0, of_b = 0;
   for_each_triangle(mesh, a, [&](std::size_t) { ++of_a; });
@@ -316,17 +318,17 @@ bool have_equal_counts(const Mesh& mesh, const Surface& a, const Surface& b) {
   return of_a == of_b && places_of(mesh, a).size() == places_of(mesh, b).size();
 }
 
-// True for a copy or a level of detail. Clothes on a body and pictures on a wall stay on one side, and cover
-// only a part.
+// Returns true for a copy or a level of detail. Clothes on a body and pictures on a wall do not match,
+// because they stay on one side and cover only a part of it.
 bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const Contact& from_a,
                    const Contact& from_b, const float (&cover)[2]) {
   const double area = from_a.area + from_b.area;
   const double mean = std::abs(from_a.height - from_b.height) / area;
   const double rms = std::sqrt((from_a.height_square + from_b.height_square) / area);
   const float least = std::min(cover[0], cover[1]), most = std::max(cover[0], cover[1]);
-  // Clothes keep their distance: their mean / rms is 0.93 or more. Levels of detail lie on both sides, or
-  // have their corners on the surface of a convex body and the rest inside. Their mean / rms is 0.05 to 0.86,
-  // and rises as they get coarser.
+  // Clothes keep a nearly constant distance to the body: the mean / rms of their heights is 0.93 or more.
+  // Levels of detail lie on both sides, or have their corners on the surface of a convex body and the rest
+  // inside. Their mean / rms is 0.05 to 0.86, and rises as they get coarser.
   const double one_sided = rms < double(same_plane) ? 0 : mean / rms;
   if (least >= 0.9f) return one_sided < 0.9 || share_vertices(mesh, a, b) || have_equal_counts(mesh, a, b);
   if (least >= 0.5f) return one_sided < 0.8 || share_vertices(mesh, a, b);
@@ -357,8 +359,8 @@ std::vector<CoincidentPair> pairs_of(const Mesh& mesh, Contacts sum) {
   return out;
 }
 
-// The volume that the fronts of each surface enclose. It is negative if they face inwards. For open surfaces,
-// the middle of their box closes the gaps.
+// Returns the volume that each surface encloses. It is negative if the fronts face inwards. Open surfaces are
+// closed by triangles to the centre of their bounding box.
 std::map<Surface, double> volumes_of(const Mesh& mesh) {
   std::map<Surface, Box> boxes;
   std::map<Surface, double> volume;
@@ -403,10 +405,10 @@ std::map<Surface, double> facing_shares(const Mesh& mesh, const std::vector<Samp
   return share;
 }
 
-// Surfaces that face others nearly all over. Linings have a cloth behind them, and a socket holds only a part
-// of its ball.
+// Returns surfaces that face other surfaces over nearly their whole area. Linings are not among them, because
+// they have cloth behind them. Sockets are not either, because a socket surrounds only a part of its ball.
 std::vector<Surface> facing_surfaces(const Mesh& mesh, const std::vector<Sample>& samples) {
-  // A hull reaches beyond the body's edges by its distance.
+  // At the edges of the body, the hull is larger than the body by their distance, so its share is below 1.
   constexpr double least = 0.8;
   std::vector<Surface> out;
   const std::map<Surface, double> shares = facing_shares(mesh, samples);
@@ -420,7 +422,7 @@ std::vector<Surface> facing_surfaces(const Mesh& mesh, const std::vector<Sample>
 
 // The surfaces among those which face inwards, with the largest surface inside: a hull may surround several.
 std::vector<OutlineHull> hulls_of(const Mesh& mesh, const std::vector<Sample>& samples) {
-  constexpr double least_of_body = 0.5;  // bodies have insides such as mouths
+  constexpr double least_of_body = 0.5;  // the hull does not cover inner surfaces, such as mouths
   std::map<Surface, OutlineHull> found;
   for (const Surface& surface : facing_surfaces(mesh, samples)) found[surface] = {};
   if (found.empty()) return {};
@@ -444,7 +446,7 @@ std::vector<OutlineHull> hulls_of(const Mesh& mesh, const std::vector<Sample>& s
   return out;
 }
 
-// Returns a name by which you can choose one node of a pair apart from the other.
+// Returns a name that matches only one of the two nodes of a pair.
 std::string chosen_name(const tinygltf::Model& model, const CoincidentPair& pair, std::size_t which) {
   const std::size_t own = pair.node[which], other = pair.node[1 - which];
   if (node_label(model, own) != node_label(model, other)) return node_label(model, own);

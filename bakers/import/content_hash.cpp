@@ -21,7 +21,7 @@ void add_skeleton(ContentHash& hash, const ImportedCharacter& character) {
     hash.add(bone.parent);
     add_numbers(hash, bone.frame_rest);
   }
-  // Names of nodes decide about nothing; a bone has its own.
+  // Node names do not affect a bake. Bones have their own names.
   hash.add(std::uint64_t(character.nodes.size()));
   for (const Node& node : character.nodes.nodes) {
     hash.add(node.parent);

@@ -26,8 +26,8 @@ bool has_bytes(const tinygltf::Model& model, int accessor) {
          model.accessors[std::size_t(accessor)].bufferView >= 0;
 }
 
-// True if some data of the primitive exists in compressed form only. Draco compresses only meshes with
-// indices, and the parser was given no indices without bytes.
+// Returns true if some data of the primitive exists only in compressed form. Draco compresses only meshes
+// with indices. Indices without bytes were removed before parsing.
 bool needs_decoding(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                     const tinygltf::Value& extension) {
   if (!has_bytes(model, primitive.indices)) return true;
@@ -68,8 +68,8 @@ std::pair<const char*, std::size_t> source_of(const tinygltf::Model& model, int 
   return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
 }
 
-// The library's own reports come back as errors. Its exceptions on damaged data, such as a failed allocation,
-// do the same.
+// Errors that the library reports become Failures. Its exceptions on damaged data, such as a failed
+// allocation, also become Failures.
 std::unique_ptr<draco::Mesh> decode(std::pair<const char*, std::size_t> source, const std::string& what) {
   try {
     draco::DecoderBuffer buffer;

@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::json;
 
-// The parser walks "extras" by recursion, so that deep nesting would exhaust the stack. A value takes some 60
-// bytes in memory, but only two bytes of text.
+// The parser reads "extras" recursively, so deep nesting would exhaust the stack. The number of values is
+// limited because a value takes about 60 bytes in memory, but may take only two bytes of text.
 void check_structure(std::span<const std::byte> json) {
   constexpr int max_depth = 128;
   constexpr std::size_t max_values = std::size_t{1} << 24;
@@ -44,7 +44,8 @@ void check_structure(std::span<const std::byte> json) {
   }
 }
 
-// True for an extension that we read, or that does not affect geometry, poses and the colours that we read.
+// Returns true for an extension that we support. Also returns true if the extension does not affect geometry,
+// poses or the colours that we read.
 bool is_readable(std::string_view extension) {
   constexpr std::array<std::string_view, 16> names = {
       "EXT_meshopt_compression", "KHR_meshopt_compression", "KHR_mesh_quantization",   "KHR_node_visibility",
@@ -73,7 +74,7 @@ void check_extensions(const Json& document) {
     const std::string& name = entry.get_ref<const std::string&>();
     if (is_readable(name)) continue;
     if (!advice) advice = advice_for(name);
-    // The first few names say enough.
+    // The first few names are sufficient for the message.
     if (names.size() < 120) names += (names.empty() ? "" : ", ") + name.substr(0, 60);
   }
   if (advice)
@@ -129,8 +130,8 @@ void check_version(const Json& document) {
         written("minVersion").c_str());
 }
 
-// True if the parser decodes a URI as we do. The parser takes any two characters after % for digits, and +
-// for a space.
+// Returns true if the parser decodes a URI in the same way as we do. The parser treats any two characters
+// after % as digits, and + as a space.
 bool is_decoded_alike(const std::string& uri) {
   for (std::size_t i = 0; i < uri.size(); ++i) {
     if (uri[i] == '+') return false;
@@ -149,8 +150,8 @@ const std::string* file_uri(const Json& entry) {
   return text.starts_with("data:") ? nullptr : &text;
 }
 
-// True for a buffer whose bytes are nowhere in the file, which glTF 2.0 allows (section 3.6.1.1). Only a
-// binary file has bytes for its first buffer without a URI.
+// Returns true for a buffer that has no bytes. glTF 2.0 allows such buffers (section 3.6.1.1). In a binary
+// file, the first buffer has bytes even without a URI.
 bool has_no_bytes(const Json& buffers, std::size_t index, bool is_binary) {
   const Json& buffer = buffers[index];
   return buffer.is_object() &&
@@ -158,7 +159,7 @@ bool has_no_bytes(const Json& buffers, std::size_t index, bool is_binary) {
 }
 
 // glTF 2.0, section 3.6.1.1: the bytes of a buffer are application/octet-stream or application/gltf-buffer.
-// The parser takes others for names of files.
+// The parser treats all other types as file names.
 void check_data_uri(const Json& buffer, std::size_t index) {
   const auto uri = buffer.find("uri");
   if (uri == buffer.end() || !uri->is_string()) return;
@@ -226,8 +227,8 @@ std::vector<Json*> draco_primitives(Json& document) {
   return out;
 }
 
-// Removes indices without bytes from them. The parser refuses such indices, and the decompressed ones replace
-// them. Returns whether there were some.
+// Removes indices without bytes from primitives that Draco compresses. The parser refuses such indices.
+// Decompression adds new ones later. Returns true if any were removed.
 bool drop_draco_indices(Json& document) {
   bool dropped = false;
   const auto accessors = document.find("accessors");
@@ -243,8 +244,8 @@ bool drop_draco_indices(Json& document) {
   return dropped;
 }
 
-// Replaces names of files and buffers without bytes, if there is one that the parser would misread.
-// is_changed: the document already differs from the file's.
+// Replaces the URIs of files, and buffers without bytes, if the parser would misread any of them. is_changed
+// is true if the document already differs from the JSON in the file.
 void replace_uris(Json& document, bool is_binary, bool is_changed, GltfPreflight& result) {
   bool is_needed = drop_draco_indices(document) || is_changed;
   const auto for_each = [&](const char* list, const auto& visit) {
@@ -298,7 +299,7 @@ GltfPreflight check_before_parsing(std::span<const std::byte> json, bool is_bina
 
 namespace {
 
-// Returns whether a relative path climbs above where it starts.
+// Returns true if a relative path leads above the folder where it starts.
 bool climbs(const std::string& relative) {
   const std::filesystem::path normal = std::filesystem::path(relative).lexically_normal();
   return normal.has_root_path() || (!normal.empty() && *normal.begin() == "..");
@@ -364,7 +365,7 @@ bool LinkedFileReader::refuse(const std::string& name, const char* why) {
   return false;
 }
 
-// Links are followed to their end: the file must really lie in the folder.
+// Follows symbolic links, because the real file must be in the folder.
 bool LinkedFileReader::leaves_folder(const std::string& name) const {
   std::error_code no_folder, no_file;
   const std::filesystem::path folder = std::filesystem::canonical(folder_, no_folder);
@@ -386,7 +387,7 @@ bool LinkedFileReader::may_open(const std::string& path) {
   }
   const std::string name = name_of(path);
   if (name.empty() || (only_buffers_ && !preflight_.buffer_files.contains(name))) return false;
-  // A C string ends at the NUL, so that we would open another file than we checked.
+  // A C string ends at the NUL, so we would open a different file than the one that we checked.
   if (name.find('\0') != std::string::npos)
     return refuse(name.c_str(), "a name with a NUL character; rename it");
   if (linked_ == LinkedFiles::folder && climbs(name))

@@ -36,7 +36,7 @@ Vector vector_of(Vec3 v) {
   return {double(v.x), double(v.y), double(v.z)};
 }
 
-// Corners of triangles, whichever way their positions are stored.
+// Returns the corners of triangles. Works for both ways in which positions are stored.
 template <class Corner>
 Vector face_of(const Triangle& t, Corner corner) {
   return cross(minus(corner(t[1]), corner(t[0])), minus(corner(t[2]), corner(t[0])));
@@ -46,8 +46,8 @@ Vector corner_of(std::span<const float> three, std::uint32_t v) {
   return {double(three[3 * v]), double(three[3 * v + 1]), double(three[3 * v + 2])};
 }
 
-// Six times the volume that triangles enclose, and twice their area. An open surface is closed by the cone to
-// its first corner.
+// Six times the volume that triangles enclose, and twice their area. An open surface is closed by triangles
+// from its border to its first corner.
 struct Enclosed {
   double volume = 0, area = 0;
   template <class Corner>
@@ -61,8 +61,8 @@ struct Enclosed {
   bool is_outside_out() const { return volume > 1e-4 * area * std::sqrt(area); }
 };
 
-// Returns true if the enclosed volume shows that the order of corners has the front inside. Returns nothing
-// if the surface encloses no volume.
+// Returns true if the enclosed volume is negative, so that the order of the corners puts the front on the
+// inside. Returns nothing if the surface encloses no volume.
 std::optional<bool> encloses_backwards(const PrimitiveSurface& surface) {
   const auto corner = [&](std::uint32_t v) { return corner_of(surface.position, v); };
   Enclosed sum;
@@ -82,7 +82,7 @@ std::vector<float> read_normals(const tinygltf::Model& model, const tinygltf::Pr
   if (const std::size_t count = element_count(model, accessor, name); count != vertices)
     throw Failure(NOOK_ERROR_BAD_FILE, "%s has %zu elements (need one for each of %zu vertices)",
                   name.c_str(), count, vertices);
-  // document_warnings names the type.
+  // document_warnings reports the wrong type.
   if (!has_allowed_type(model, model.accessors[std::size_t(accessor)], AccessorUse::normal)) return {};
   std::vector<float> normal = read_floats(model, accessor, 3, name).value;
   for (float& value : normal)
@@ -124,7 +124,7 @@ struct PlaceHash {
   }
 };
 
-// Numbers the distinct positions from 0, and returns each position's number.
+// Gives each distinct position an index from 0 on, and returns the index of each position.
 std::vector<std::uint32_t> places_of(std::span<const Vec3> position) {
   std::vector<std::uint32_t> out;
   std::unordered_map<std::array<float, 3>, std::uint32_t, PlaceHash> known;
@@ -137,15 +137,15 @@ std::vector<std::uint32_t> places_of(std::span<const Vec3> position) {
   return out;
 }
 
-// An edge of a triangle, listed with the smaller of its two places.
+// An edge of a triangle. It is stored in the list of the smaller of its two places.
 struct EdgeUse {
   std::uint32_t other = 0;  // the larger place
   std::uint32_t triangle = 0;
   bool rises = false;  // from the smaller place to the larger
 };
 
-// The uses of all edges. Edges whose smaller place is p are from first[p] to first[p + 1], sorted by the
-// other.
+// The uses of all edges. The edges whose smaller place is p are at first[p] to first[p + 1], sorted by their
+// larger place.
 struct Edges {
   std::vector<std::size_t> first;
   std::vector<EdgeUse> use;

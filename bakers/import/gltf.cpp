@@ -41,7 +41,7 @@ Skin read_skin(const tinygltf::Model& model, int index, const NodeTree& nodes,
   if (const auto twice = std::adjacent_find(sorted.begin(), sorted.end()); twice != sorted.end())
     warnings.push_back(what + " lists joint node " + std::to_string(*twice) +
                        " twice, which glTF forbids; both entries follow this node");
-  // Without the accessor all matrices are identity: glTF 2.0, section 3.7.3.1.
+  // Without the accessor, all matrices are the identity (glTF 2.0, section 3.7.3.1).
   skin.inverse_bind.resize(skin.joint.size());
   if (source.inverseBindMatrices < 0) return skin;
   const std::string matrices_name = what + " inverse bind matrices";
@@ -67,17 +67,17 @@ std::vector<bool> animated_nodes(const std::vector<Clip>& clips, std::size_t nod
   return moves;
 }
 
-// A mesh node that the scene shows, with the place of its binding in the skeleton.
+// A mesh node that the scene shows, and the index of its binding in the skeleton.
 struct MeshNode {
   std::uint32_t node = 0;
   bool is_skinned = false;
-  std::size_t binding = 0;  // into Skeleton::skins or rigid_parts
+  std::size_t binding = 0;  // index into Skeleton::skins or rigid_parts
 };
 
 struct MeshNodes {
   std::vector<MeshNode> all;              // in the file's node order
   std::vector<Skin> skins;                // only those in use
-  std::vector<std::uint32_t> file_skins;  // their indices in the file
+  std::vector<std::uint32_t> file_skins;  // indices of these skins in the file
   std::vector<std::uint32_t> rigid_nodes;
 };
 
@@ -107,8 +107,8 @@ MeshNodes find_mesh_nodes(const tinygltf::Model& model, const NodeTree& nodes, c
   return out;
 }
 
-// Limits nodes and bones over all sampled poses, so that the work does not grow with clips times nodes.
-// Thousands of clips of usual characters stay below it.
+// Limits the total number of nodes and bones over all sampled poses. Otherwise, the time would grow with
+// clips * nodes. Usual characters with thousands of clips stay below this limit.
 constexpr std::size_t max_checked_matrices = std::size_t{1} << 24;
 
 // Warns of bones that a clip shears or scales unevenly. Their matrices are replaced by the nearest

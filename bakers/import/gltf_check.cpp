@@ -24,7 +24,7 @@ std::optional<AccessorUse> use_of(std::string_view attribute) {
   return std::nullopt;
 }
 
-// True for uses that every import reads. The reader that needs another use checks it.
+// Returns true for uses that every import reads. All other uses are checked by the code that reads them.
 bool decides_shape(AccessorUse use) {
   return use == AccessorUse::position || use == AccessorUse::joints || use == AccessorUse::weights;
 }
@@ -94,7 +94,7 @@ std::string name_of_node(const tinygltf::Model& model, std::size_t node) {
   return "node " + std::to_string(node) + (name.empty() ? "" : ", \"" + name.substr(0, 80) + "\"");
 }
 
-// A matrix in the order of its columns must end in the row 0 0 0 1. glTF 2.0, sections 3.5.2 and 3.7.3.1.
+// The last row of a column-major matrix must be 0 0 0 1 (glTF 2.0, sections 3.5.2 and 3.7.3.1).
 template <typename Number>
 bool has_last_row(const Number* matrix) {
   constexpr double tolerance = 1e-4;  // exporters write six digits or more
@@ -144,8 +144,8 @@ void look_at_nodes(const tinygltf::Model& model, std::vector<std::string>& warni
   warn(warnings, not_unit, "nodes have a rotation that is not a unit quaternion; it was normalised");
 }
 
-// The largest index of a type starts a new primitive in graphics APIs, so that no file may use it.
-// glTF 2.0, section 3.7.2.1.
+// In graphics APIs, the largest index of a type restarts the primitive. So glTF files must not use it (glTF
+// 2.0, section 3.7.2.1).
 bool has_restart(const tinygltf::Model& model, int accessor) {
   const int type = model.accessors[std::size_t(accessor)].componentType;
   const std::uint32_t restart = type == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE    ? 0xffu
@@ -159,7 +159,8 @@ bool has_restart(const tinygltf::Model& model, int accessor) {
   }
 }
 
-// False where bounds are not given, or hold within the rounding of six digits.
+// Returns false if the accessor has no bounds, or if its bounds are correct within the rounding to six
+// digits.
 bool has_false_bounds(const tinygltf::Model& model, int index) {
   const tinygltf::Accessor& accessor = model.accessors[std::size_t(index)];
   if (accessor.minValues.empty() || accessor.maxValues.empty() || accessor.normalized) return false;
@@ -187,8 +188,9 @@ bool is_there(const tinygltf::Model& model, int accessor) {
   return accessor >= 0 && std::size_t(accessor) < model.accessors.size();
 }
 
-// Accessors that were not looked at yet. The checks look at each once, and stop at many more elements than an
-// import takes. Accessors may share their bytes, or have none.
+// The accessors that were not checked yet. Each accessor is checked once. The checks stop at a limit far
+// above the elements of an import. The limit is necessary because accessors may share their bytes, or have no
+// bytes.
 class Unseen {
  public:
   explicit Unseen(const tinygltf::Model& model) : model_(model) {}

@@ -12,8 +12,8 @@
 namespace nook::bake {
 namespace {
 
-constexpr std::size_t max_key_floats = std::size_t{1}
-                                       << 26;  // for all clips together; bounds memory on hostile input
+constexpr std::size_t max_key_floats =
+    std::size_t{1} << 26;  // for all clips together; limits the memory for malicious files
 
 std::optional<ChannelPath> path_of(const std::string& text) {
   if (text == "translation") return ChannelPath::translation;
@@ -30,12 +30,12 @@ Interpolation interpolation_of(const std::string& text, const std::string& what)
                 what.c_str(), text.c_str());
 }
 
-// Faults of keys with one sensible repair, counted over all channels.
+// Counts the errors in keys that can be repaired in only one sensible way, over all channels.
 struct KeyRepairs {
   std::size_t equal_times = 0, not_unit = 0, twice = 0;
 };
 
-// Rotations in bytes are off by up to 2 %, and rotations in floats only by rounding.
+// The length of a rotation stored in bytes may be off by 2 %. With floats, it is only off by rounding.
 bool has_not_unit_rotation(const Channel& channel) {
   if (channel.path != ChannelPath::rotation) return false;
   const bool is_cubic = channel.interpolation == Interpolation::cubic_spline;
@@ -66,7 +66,7 @@ void add_warnings(const KeyRepairs& repairs, std::vector<std::string>& warnings)
        " animation channels move the same value as another channel of their clip; the last one is used");
 }
 
-// left: what remains of max_key_floats. The channel subtracts what it takes.
+// `left` is the rest of max_key_floats. The function subtracts the floats of this channel.
 Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& animation,
                      const tinygltf::AnimationChannel& source, ChannelPath path, const std::string& what,
                      std::size_t& left) {
@@ -101,7 +101,7 @@ Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& an
   return channel;
 }
 
-// Puts the clip's first key at 0.
+// Shifts the keys so that the clip's first key is at 0.
 void settle_times(Clip& clip) {
   float first = clip.channels[0].time_s.front();
   float last = clip.channels[0].time_s.back();

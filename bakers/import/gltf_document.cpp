@@ -51,7 +51,8 @@ bool accept_any_image(tinygltf::Image*, const int, std::string*, std::string*, i
   return true;
 }
 
-// Images in buffer views have their bytes there, and tinygltf does not check that the views are in bounds.
+// Skips images in buffer views. Their bytes are already in the buffer, and tinygltf does not check that the
+// views are in bounds.
 bool keep_encoded_image(tinygltf::Image* image, const int, std::string*, std::string*, int, int,
                         const unsigned char* bytes, int size, void*) {
   if (image->bufferView < 0 && size > 0) image->image.assign(bytes, bytes + size);
@@ -64,7 +65,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-// A C string ends at the NUL, so that different names would be equal.
+// A C string ends at the NUL, so different names would become equal.
 void refuse_nul(const std::string& name, const char* what, std::size_t index) {
   if (name.find('\0') != std::string::npos)
     throw Failure(NOOK_ERROR_BAD_FILE, "the name of %s %zu (\"%s...\") holds a NUL character; rename it",
@@ -129,9 +130,10 @@ std::vector<std::byte> with_json(std::span<const std::byte> bytes, std::string j
   return out;
 }
 
-// Restores names that the parser got in another form. URIs become the URIs of the file, decoded. Buffers that
-// were only room for decompressed views lose name and bytes. If a node has two transforms, its matrix counts.
-// A translation beside the matrix tells the checks that there were two.
+// Restores the names that were replaced for the parser. Sets URIs to the decoded URIs of the file. Removes
+// the name and the bytes of buffers that only reserved space for decompressed views. If a node has both a
+// matrix and TRS, keeps the matrix. It then also sets a translation, which tells the later checks that the
+// node had both.
 void restore(const GltfPreflight& preflight, tinygltf::Model& model) {
   const auto restore_uri = [&](std::string& uri) {
     const auto name = preflight.names.find(uri);

@@ -20,8 +20,8 @@ std::vector<double> default_morph_weights(const tinygltf::Mesh& mesh, const tiny
 
 namespace {
 
-// Each target at work is read for each of up to 10 million vertices, from accessors that may share their
-// bytes.
+// Limits the targets with a weight other than 0. Each is read for up to 10 million vertices, and accessors
+// may share their bytes, so a small file could take very long.
 constexpr std::size_t max_targets_at_work = 256;
 
 }  // namespace
@@ -75,7 +75,7 @@ struct Influences {
   std::vector<Floats> weight;
 };
 
-// Sets of joints and weights, which are numbered from 0. None is read yet.
+// Counts the sets of joints and weights, which are numbered from 0. Does not read them.
 std::size_t count_influence_sets(const tinygltf::Primitive& primitive, const std::string& what) {
   for (std::size_t set = 0;; ++set) {
     const bool joints = attribute(primitive, "JOINTS_" + std::to_string(set)) >= 0;
@@ -148,7 +148,7 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
           continue;
         }
         if (!std::isfinite(weight)) refuse_weight(what, v);
-        // Unused slots may name any joint.
+        // A slot with weight 0 may refer to any joint.
         if (weight == 0) continue;
         if (weight < 0) {
           ++repairs.negative_weights;
@@ -162,7 +162,7 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
         ++positive;
       }
     ++repairs.skinned;
-    // Exporters that divide weights by their sum write NaN where all of them are 0.
+    // Some exporters divide weights by their sum. They write NaN if all weights of a vertex are 0.
     if (has_nan && positive > 0) refuse_weight(what, v);
     if (positive == 0) {
       ++repairs.without_weights;
@@ -234,7 +234,7 @@ void append_mesh(const tinygltf::Model& model, const PlacedMesh& placed, FileMes
                  MeshRepairs& repairs) {
   const tinygltf::Node& node = placed.node;
   const bool is_skinned = node.skin >= 0;
-  // A rigid part is where its node is, so that its way to rest space mirrors as the node does.
+  // A rigid part moves with its node, so its transform to rest space mirrors if the node mirrors.
   const bool node_mirrors = is_skinned ? placed.node_mirrors : determinant(placed.binding.rest_from_mesh) < 0;
   const tinygltf::Mesh& mesh = model.meshes[node.mesh];
   const std::string name = mesh.name.empty() ? "mesh_" + std::to_string(node.mesh) : mesh.name;

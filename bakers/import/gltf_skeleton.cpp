@@ -21,7 +21,7 @@ struct Builder {
   std::vector<std::uint32_t> depth;
   // The frame of each joint in rest space, with its scale. Other nodes get one only when they become bones.
   std::vector<std::optional<Affine>> bind_rest;
-  // The results of implied_bind, once all skins are in; empty before.
+  // The results of implied_bind. Empty until all skins were added.
   std::vector<Affine> implied;
   std::vector<std::int32_t> anchor;        // filled with implied: the nearest node upwards that has a bone or
                                            // moves, -1: none
@@ -53,7 +53,7 @@ struct Builder {
     return world[node];
   }
 
-  // Walks down the tree once, so that a deep chain of mesh nodes does not cost a walk up for each.
+  // Walks down the tree only once. Walking up from each mesh node would be slow for deep chains.
   void settle_rigid_nodes(const std::vector<bool>& moves) {
     std::vector<bool> hangs(nodes.size(), false);  // true for nodes below a bind pose
     implied = world;
@@ -83,7 +83,8 @@ struct Builder {
                     node, nodes.nodes[node].name.c_str());
   }
 
-  // True for the same matrix in every pose: equal up to 0.1 % and 0.1 mm at the joint.
+  // Returns true if both bindings give the same matrix in every pose, with tolerances of 0.1 % and of 0.1 mm
+  // at the joint.
   bool same_binding(const Affine& a, std::uint32_t bone) const {
     const BoneBinding& b = bindings[bone];
     const Affine difference = rest_from_node[bone] * a;
@@ -122,8 +123,8 @@ std::uint32_t top_depth(const Builder& b, const Skin& skin) {
   return top;
 }
 
-// Returns the S of a skin. Skins of one skeleton must agree about rest space. So a joint that an earlier skin
-// has bound decides; without one, the top-most joint decides.
+// Returns the S of a skin. Skins of one skeleton must agree about rest space. So if an earlier skin has bound
+// one of the joints, that joint determines S. Otherwise the top-most joint does.
 Affine rest_from_mesh(const Builder& b, const Skin& skin) {
   std::size_t reference = 0;
   bool is_shared = false;

@@ -38,7 +38,7 @@ constexpr std::array<TypeName, 10> names{{{f32, "FLOAT"},
                                           {i16n, "normalized SHORT"},
                                           {u32, "UNSIGNED_INT"}}};
 
-// Element types; both are equal where only one is allowed.
+// The two allowed element types. Both are equal if only one is allowed.
 struct Allowed {
   AccessorUse use;
   int element, other_element;

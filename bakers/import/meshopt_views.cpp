@@ -21,7 +21,7 @@ using Json = nlohmann::json;
                 view, fault.c_str());
 }
 
-// Returns the extension's entry in a view; null without it.
+// Returns the entry of the extension in a view, or null if the view does not have it.
 const Json* extension_of(const Json& view) {
   if (!view.is_object()) return nullptr;
   const auto extensions = view.find("extensions");

@@ -8,8 +8,8 @@
 namespace nook::bake {
 
 void sort_parents_first(NodeTree& tree) {
-  // Limits the depth: walks up to the root happen for every bone, so that an endless chain would cost its
-  // length squared.
+  // Limits the depth. The code walks up to the root for every bone, so the time for a very long chain would
+  // be quadratic in its length.
   constexpr std::uint32_t max_depth = 4096;
   const std::size_t count = tree.size();
   std::vector<std::uint32_t> depth(count, 0);

@@ -33,7 +33,8 @@ std::size_t character_bytes(std::string_view text) {
   return n;
 }
 
-// The names that a person chooses a node by, at most ten of them, each once.
+// Returns a list of names from which the user can choose a node. It contains each name once, and at most ten
+// names.
 std::string listed(std::vector<std::string> names) {
   constexpr std::size_t most = 10;
   std::sort(names.begin(), names.end());
@@ -61,7 +62,7 @@ std::vector<bool> subtrees(const NodeTree& nodes, const std::function<bool(std::
   return marked;
 }
 
-// The default scene's nodes; all of them when the file has no scene.
+// Returns the nodes of the default scene, or all nodes if the file has no scene.
 std::vector<bool> nodes_of_scene(const tinygltf::Model& model, const NodeTree& nodes) {
   if (model.scenes.empty()) return std::vector<bool>(nodes.size(), true);
   const int scene = model.defaultScene < 0 ? 0 : model.defaultScene;
@@ -88,7 +89,7 @@ bool is_hidden(const tinygltf::Model& model, std::size_t node) {
   return !visible.Get<bool>();
 }
 
-// glTF 2.0, section 3.5.3: a renderer may leave out what is scaled to 0 on all axes.
+// glTF 2.0, section 3.5.3: a renderer may leave out nodes that are scaled to 0 on all axes.
 bool has_no_size(const Node& node) {
   if (!node.matrix) return node.local.scale == std::array<double, 3>{0, 0, 0};
   for (std::size_t r = 0; r < 3; ++r)
@@ -97,7 +98,8 @@ bool has_no_size(const Node& node) {
   return true;
 }
 
-// The levels that MSFT_lod gives to nodes: its first node is the finest, and names the others.
+// Returns the levels from MSFT_lod. The node that has the extension is the finest level, and lists the nodes
+// of the other levels.
 std::vector<int> levels_by_extension(const tinygltf::Model& model) {
   std::vector<int> level(model.nodes.size(), 0);
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
@@ -166,7 +168,7 @@ void require_matches(const tinygltf::Model& model, const std::vector<NodeState>&
   }
 }
 
-// Where every mesh that could be in is a lower level, the finest are the model.
+// If all meshes that could be included are lower levels, includes the finest of them.
 void keep_finest(const std::vector<int>& level, std::vector<NodeState>& state) {
   int finest = 0;
   for (std::size_t n = 0; n < state.size(); ++n) {
@@ -195,7 +197,7 @@ constexpr std::array<Reason, 5> reasons = {{{NodeState::hidden, "hidden by KHR_n
                                             {NodeState::not_chosen, "not chosen by name (--mesh)"},
                                             {NodeState::left_out, "left out by name (--without)"}}};
 
-// Fails where the scene has meshes and none of them is in.
+// Fails if the scene has meshes, but none of them is included.
 void require_any(const tinygltf::Model& model, const std::vector<NodeState>& state) {
   if (std::find(state.begin(), state.end(), NodeState::in) != state.end()) return;
   std::string why;
@@ -234,7 +236,8 @@ void note_other_scenes(const tinygltf::Model& model, const std::vector<NodeState
                     listed(names));
 }
 
-// True where no renderer shows the base colour. Textures multiply it.
+// Returns true if the base colour is fully transparent, so that no renderer shows it. Textures only multiply
+// it.
 bool is_transparent(const tinygltf::Model& model, int material) {
   if (material < 0 || std::size_t(material) >= model.materials.size()) return false;
   const tinygltf::Material& m = model.materials[std::size_t(material)];
@@ -317,7 +320,7 @@ MeshSize size_of(const tinygltf::Model& model, int mesh) {
   return size;
 }
 
-// Instances make much of a small file, so that the whole is known before any is read.
+// Checks the totals before any mesh is read, because a small file can contain very many instances.
 void check_instances(const tinygltf::Model& model, const std::vector<NodeState>& state) {
   constexpr std::size_t max_instances = std::size_t{1} << 20;
   std::size_t instances = 0;

@@ -1,5 +1,6 @@
-// A rigged character as the bakers see it: welded vertices in rest space (metres, after the file's node
-// transforms), bones with their rest frames, and the way back to the file's own vertex order.
+// A rigged character in the form that the bakers use. It has welded vertices in rest space (metres, after the
+// file's node transforms) and bones with their rest frames. It also maps welded vertices to the vertex order
+// of the file.
 #pragma once
 
 #include <nook/nook.h>
@@ -31,7 +32,7 @@ struct Bone {
 
 struct Primitive {
   std::string mesh_name;
-  std::uint32_t first_vertex = 0;  // in file order: all primitives in a row
+  std::uint32_t first_vertex = 0;  // index of a vertex in file order, counted over all primitives
   std::uint32_t vertex_count = 0;
 };
 
@@ -51,16 +52,18 @@ using Pose = std::vector<Mat3x4>;
 
 // Posed positions, normals and areas of welded vertices.
 
-// Linear blend skinning. `out_ws` is resized to the mesh's vertices; reuse it between poses.
+// Computes linear blend skinning. Resizes `out_ws` to the number of vertices. Reuse it between poses, to
+// avoid allocations.
 void skin_positions(const SkinnedMesh& mesh, const Pose& pose, std::vector<Vec3>& out_ws);
 
-// Returns area-weighted unit normals. A vertex whose faces cancel out takes the normal of one of them. It
-// takes +y if all its faces are degenerate or it has none.
+// Returns area-weighted unit normals. If the normals of the faces around a vertex add up to zero, the vertex
+// gets the normal of one of these faces. It gets +y if all its faces are degenerate, or if it has no face.
 void vertex_normals(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions,
                     std::vector<Vec3>& out);
 
 // Mixed Voronoi area of each vertex (Meyer, Desbrun, Schroeder, Barr 2003, "Discrete Differential-Geometry
-// Operators for Triangulated 2-Manifolds", section 3.3). They add up to the surface's area.
+// Operators for Triangulated 2-Manifolds", section 3.3). The sum over all vertices is the area of the
+// surface.
 std::vector<float> vertex_areas(const SkinnedMesh& mesh, std::span<const Vec3> positions);
 
 // Checks a mesh before a bake, for meshes from files and from memory.
@@ -69,12 +72,12 @@ struct FileMesh;
 
 constexpr std::size_t max_bone_count = 65535;  // bone indices are 16 bits
 constexpr std::size_t max_file_vertices =
-    10'000'000;  // bounds memory on hostile input, far above any character
+    10'000'000;  // far above any character; limits the memory for malicious files
 
 // Checks that there are 1 to max_bone_count bones, parents before children, with finite orthonormal frames.
 // Positions must be finite. Weights must be finite, non-negative, with sum 1. Bones and indices must be in
-// range. Primitives must follow each other over all vertices, with at least one triangle. Fails with `code`;
-// the message names the first fault and how many there are.
+// range. The primitives must cover all vertices in order and without gaps. There must be at least one
+// triangle. Fails with `code`. The message contains the first fault and the number of faults.
 void validate(const FileMesh& mesh, nook_result code = NOOK_ERROR_INVALID_ARGUMENT);
 void validate(const SkinnedMesh& mesh, nook_result code = NOOK_ERROR_INVALID_ARGUMENT);
 

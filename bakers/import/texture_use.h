@@ -1,4 +1,4 @@
-// Colour textures as in a file: images still encoded, and how surfaces read them.
+// Colour textures in the form of the file. Describes the encoded images, and how surfaces read them.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@ struct EncodedImage {
 };
 
 struct TexturePoint {
-  float u = 0, v = 0;  // to the right and down; [0, 1]^2 is the image
+  float u = 0, v = 0;  // u points right, v points down; the image covers [0, 1]^2
 };
 
 enum class TextureWrap : std::uint8_t { repeat, mirrored, clamped };
@@ -26,7 +26,8 @@ struct TextureUse {
   std::uint8_t uv_set = 0;  // 0 or 1
   TextureWrap wrap_u = TextureWrap::repeat, wrap_v = TextureWrap::repeat;
   bool nearest = false;  // else bilinear
-  // KHR_texture_transform: rows that take (u, v, 1) of the vertices to the image's.
+  // From KHR_texture_transform. The two rows of a matrix that transforms (u, v, 1) of a vertex to image
+  // coordinates.
   std::array<float, 6> transform{1, 0, 0, 0, 1, 0};
 
   bool is_used() const { return image != none; }

@@ -1,6 +1,6 @@
-// From vertices in file order to a welded mesh. Vertices split at UV or normal seams become one again, so
-// that ambient occlusion agrees across seams. The two sides of a card stay apart, because each has its own
-// AO.
+// Makes a welded mesh from vertices in file order. Vertices that were split at UV or normal seams are merged,
+// so that ambient occlusion is the same on both sides of a seam. The two sides of a card are not merged,
+// because each side has its own AO.
 #pragma once
 
 #include <nook/nook.h>
@@ -15,23 +15,24 @@
 
 namespace nook::bake {
 
-// Vertices in file order and rest space; primitives follow each other.
+// Vertices in file order, in rest space, one primitive after another.
 struct FileMesh {
   std::vector<Bone> bones;
   std::vector<Vec3> position;
   std::vector<SkinWeights> weights;
   std::vector<std::array<std::uint32_t, 3>> triangle;
   std::vector<Primitive> primitives;  // empty: one primitive holds everything
-  // As the file has them, in the space of each mesh; empty: they equal `position`.
+  // The positions as stored in the file, in mesh space. If empty, they are equal to `position`.
   std::vector<Vec3> mesh_position;
 };
 
-// Keeps the max_bones largest weights, adds up entries of the same bone, drops what is not positive, and
-// makes the sum 1. Equal sets give equal results in any order. Without a positive weight, the result is all
-// zero.
+// Adds up entries of the same bone, drops weights that are not positive, keeps the max_bones largest weights,
+// and normalises them to the sum 1. The result does not depend on the order of the entries. If no weight is
+// positive, the result is all zero.
 SkinWeights make_weights(std::span<const std::pair<std::uint16_t, float>> influences);
 
-// Arrays as a game has them in memory. Fails with `code`. The limits are the same as in validate().
+// Arrays in the form that a game has them in memory. Fails with `code`. The limits are the same as in
+// validate().
 struct MeshArrays {
   std::vector<Bone> bones;
   std::span<const Vec3> position;        // rest space, metres
