@@ -36,7 +36,7 @@ class NookAo {
 
   // Evaluates a pose. The result is bound as a vertex attribute of one float.
   nook_gl_view character(const Pose& pose) {
-    // Joint matrices also pose the parts without a skin. Bone names identify their nodes.
+    // These matrices also pose the parts without a skin. The bone names say which nodes they belong to.
     const std::span matrices(pose.matrices);
     set_pose(NOOK_POSE_JOINT_TO_WORLD, matrices.subspan(file_.first_node_matrix), node_of_bone_, 0);
     for (std::uint32_t s = 0; s < file_.skins.size(); ++s)
@@ -46,7 +46,7 @@ class NookAo {
     return gl_->view(scene_, character_);
   }
 
-  // Returns a texture with the AO of each pixel in red. Where the layer is (c, 1), the result is c.
+  // Returns a texture with the AO of each pixel in red. If the layer of a pixel is (c, 1), the result is c.
   std::uint32_t screen(std::uint32_t depth, std::uint32_t layer, const glm::mat4& projection,
                        float radius_m) {
     frame_.depth_texture = depth;

@@ -33,7 +33,7 @@ class Renderer {
   GLuint layer() const { return textures_[layer_texture]; }
   // Then call this. It draws the colours, with both kinds of AO.
   void draw_colour(const VertexAo& character_ao, GLuint screen_ao);
-  // Leaves the colours bound for reading.
+  // Binds the framebuffer with the colours for reading.
   void bind_picture() const;
   void show(GLuint framebuffer, int width, int height) const;
 

@@ -25,16 +25,16 @@ struct Options {
   nook_gl_state_mode state_mode() const;
 };
 
-// Prints usage and returns false when the program must end with exit_code.
+// Returns false if the program must end with exit_code. In this case it has printed the usage.
 bool parse_options(const char* name, int argc, char** argv, Options& options, int& exit_code);
 
-// The character in a pose of its clip, and a camera that shows all of the character.
+// The character in one pose of its clip, and a camera in which the whole character is visible.
 struct Scene {
   viewer::CharacterFile file;
   viewer::Pose pose;
   glm::vec3 eye_ws, target_ws;
   float vertical_fov_rad = 0.5f, near_m = 0, far_m = 0;
-  float size_m = 0;  // the diagonal of its box
+  float size_m = 0;  // the diagonal of the character's bounding box
 
   explicit Scene(const Options& options);
   // The global matrix of a node.

@@ -7,8 +7,9 @@
 //   steps->SetOpaquePass(ao);
 //   renderer->SetPass(steps);
 //
-// Only ambient light is darkened, so set the ambient coefficient of properties above 0. DirectShare darkens
-// the other light too. Translucent props, volumes and overlays are drawn after the pass and are not darkened.
+// Only ambient light is darkened, so set the ambient coefficient of properties above 0. Set DirectShare to
+// darken direct light too. Translucent props, volumes and overlays are drawn after the pass and are not
+// darkened.
 #pragma once
 
 #include <vtkImageProcessingPass.h>
@@ -28,7 +29,7 @@ class vtkNookAoPass : public vtkImageProcessingPass {
   // visible props.
   vtkSetMacro(Radius, double);
   vtkSetMacro(RadiusShare, double);
-  // From 0 (default) to 1: how much of the AO darkens diffuse light of lamps.
+  // How strongly the AO darkens the diffuse light of lamps, from 0 (default, not at all) to 1.
   vtkSetMacro(DirectShare, double);
   // Required. `gl` sets the function loader and the state mode.
   void SetGl(const nook_gl_desc& gl) { gl_desc_ = gl; }
