@@ -7,7 +7,7 @@
 
 namespace platform {
 
-// Callbacks from code that reads or writes files to its program. Each function may be empty.
+// Callbacks with which code that reads or writes files notifies the program. Each function may be empty.
 struct FileEvents {
   std::function<bool()> stopped;                     // return true to end a wait; the wait then throws
                                                      // Stopped

@@ -14,11 +14,12 @@ namespace platform {
 // part to the target. Without commit(), the destructor removes the part. The new file takes over the mode of
 // the old file, and its owner and attributes if the system allows this. A symbolic link is replaced. The file
 // to which it points is not changed, because it may be shared with others, for example in a cache. Devices,
-// pipes and the program's own streams (/dev/stdout) are never replaced, also if a link points to them:
-// commit() writes to them. The constructor opens everything, and waits for the reader of a pipe. So a target
-// that cannot be written causes a failure before the work begins. The constructor refuses a write-protected
-// file. It also removes parts of the target that dead processes have left, which it recognises by their names
-// and first bytes. On failure, throws std::runtime_error with a text that contains the name of the file.
+// pipes and the program's own streams (/dev/stdout) are never replaced, even if the path is a link to them.
+// commit() writes to them instead. The constructor opens everything, and waits for the reader of a pipe. So a
+// target that cannot be written causes a failure before the work begins. The constructor refuses a
+// write-protected file. It also removes parts of the target that dead processes have left, which it
+// recognises by their names and first bytes. On failure, throws std::runtime_error with a text that contains
+// the name of the file.
 class OutputFile {
  public:
   explicit OutputFile(std::filesystem::path target, FileEvents events = {});
@@ -30,7 +31,8 @@ class OutputFile {
   void commit(std::span<const std::byte> bytes);
   void commit(std::string_view text);
 
-  // False for a device, a pipe or a stream, where written data cannot be replaced later.
+  // Returns false for a device, a pipe or a stream, because data that was written to it cannot be replaced
+  // later.
   bool is_regular() const { return !part_.empty(); }
 
  private:

@@ -11,7 +11,7 @@ namespace platform {
 // title of a terminal.
 std::string printable(std::string_view text);
 
-// The same for text with several lines. Line feeds are kept.
+// Like printable(), for text with several lines. Keeps line feeds.
 std::string printable_lines(std::string_view text);
 
 }  // namespace platform
