@@ -13,7 +13,7 @@ namespace nook::bake::material {
 enum class Method : std::uint8_t { n_svd, cta, k_cta, neural };
 
 enum class Seeding : std::uint8_t {
-  directions,  // clusters of view directions: the parametric space of the paper's 5.1
+  directions,  // clusters of view directions (section 5.1 of the paper, parametric space)
   values,      // k-means of the views' sub-tensors
 };
 

@@ -11,7 +11,8 @@
 
 namespace nook::bake::material {
 
-// Reads images of a repeating tile with linear interpolation, texel x * height + y as in RawMaterial.
+// Reads images of a repeating tile with linear interpolation. The texel index is x * height + y, as in
+// RawMaterial.
 
 // The four texels around a point and their interpolation weights.
 struct Taps {

@@ -1,5 +1,6 @@
-// The uncompressed appearance of a material, which is traced or measured. It is the reference for
-// compression. Also handles its directions, its file, and the colours of texels that views pass through.
+// Stores the uncompressed appearance of a material, which is traced or measured. It is the reference for
+// compression. This header also declares directions, the file format, and the filling of texels that views
+// pass through.
 #pragma once
 
 #include <cstddef>
