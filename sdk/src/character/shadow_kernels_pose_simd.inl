@@ -2,8 +2,8 @@
 // instruction set's namespace, after it has defined
 //   Four, a vector of four floats with Four(float), +, -, *, /, fma, max and sqrt,
 //   load_four(p), store(p, a) and transpose(a, b, c, d), which swaps rows and columns of a 4 x 4 matrix.
-// The matrix of a bone takes three loads, one for each row. Four blended key points are transposed, so that each
-// coordinate can be stored in its own array.
+// The matrix of a bone takes three loads, one for each row. Four blended key points are transposed, so that
+// each coordinate can be stored in its own array.
 
 namespace {
 
