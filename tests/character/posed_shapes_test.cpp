@@ -35,7 +35,7 @@ std::vector<nook_instance_id> links_of(const Scene& scene, nook_instance_id id) 
 // Compares what is read with the lanes of the kernels.
 void check_shapes(const Instance& instance) {
   const std::uint32_t level = instance.plan.level;
-  const InstanceArrays& arrays = instance.result.arrays;
+  const InstanceArrays& arrays = instance.arrays();
   const SphereLanes& s = level == 0 ? arrays.spheres : arrays.coarse_spheres[level - 1];
   std::vector<nook_scene_sphere> spheres(sphere_count(instance));
   read_spheres(instance, spheres.data());

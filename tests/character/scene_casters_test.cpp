@@ -144,11 +144,11 @@ TEST_CASE("the bound of a posed instance holds its spheres and key points") {
     update(scene);
     const Instance& instance = instance_of(scene, id);
     const float reach = instance.input.bound.radius * (1 + 1e-5f);
-    const SphereLanes& s = instance.result.arrays.spheres;
+    const SphereLanes& s = instance.arrays().spheres;
     for (std::uint32_t i = 0; i < s.count; ++i)
       CHECK(length(Vec3{s.x[i], s.y[i], s.z[i]} - instance.input.bound.centre) + 1 / s.inverse_radius[i] <=
             reach);
-    const PointLanes& p = instance.result.arrays.points;
+    const PointLanes& p = instance.arrays().points;
     for (std::uint32_t i = 0; i < p.count; ++i) {
       CHECK(length(Vec3{p.x[i], p.y[i], p.z[i]} - instance.input.bound.centre) <= reach);
       CHECK(length(Vec3{p.surface_x[i], p.surface_y[i], p.surface_z[i]} - instance.input.bound.centre) <=

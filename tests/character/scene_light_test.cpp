@@ -105,8 +105,8 @@ TEST_CASE("a bias takes the same light as the key points from which it takes awa
   const Instance& instance = instance_of(scene, id);
   float largest = 0;
   for (std::uint32_t k = 0; k < model->model.key_points.size(); ++k)
-    if (const float shadow = instance.result.arrays.points.shadow[k]; shadow > 0)
-      largest = std::max(largest, instance.light.shadow[0][k] / shadow);
+    if (const float shadow = instance.arrays().points.shadow[k]; shadow > 0)
+      largest = std::max(largest, instance.light().shadow[0][k] / shadow);
   std::size_t cancelled = 0;
   for (std::size_t i = 0; i < ao.size(); ++i) {
     cancelled += ao[i] > 0.5f && ao[i] < 1;
@@ -155,7 +155,7 @@ TEST_CASE("bad lobes are refused and change nothing") {
         SphericalGaussian{{0, 0, 1}, 1e5f, {1, 1, 1}}, SphericalGaussian{{0, 0, 1}, 1, {1, nan, 1}},
         SphericalGaussian{{0, 0, 1}, 1, {1, 1, INFINITY}}}) {
     CHECK_THROWS_AS(set_light(scene, id, std::vector<SphericalGaussian>{bad}), Failure);
-    CHECK(instance_of(scene, id).light.count == 0);
+    CHECK(instance_of(scene, id).light().count == 0);
   }
   CHECK_THROWS_AS(set_light(scene, id, std::vector<SphericalGaussian>(max_light_lobes + 1)), Failure);
   CHECK_THROWS_AS(set_light(scene, id + 7, constant_light), Failure);

@@ -315,7 +315,7 @@ TEST_CASE("uneven matrices are projected to the nearest similarity, and noted") 
   CHECK(notes.first == 2);
   const Instance& instance = instance_of(scene, id);
   // Rounding in float of numbers up to 3.
-  for (int i = 0; i < 12; ++i) CHECK(std::abs(instance.input.bones[2].m[i] - even[2].m[i]) < 2e-6f);
+  for (int i = 0; i < 12; ++i) CHECK(std::abs(instance.bones()[2].m[i] - even[2].m[i]) < 2e-6f);
 
   // One axis and two axes of zero keep a finite AO, and a mirrored matrix stays mirrored.
   for (int zeros = 1; zeros <= 3; ++zeros) {
@@ -330,7 +330,7 @@ TEST_CASE("uneven matrices are projected to the nearest similarity, and noted") 
   for (Mat3x4& bone : mirrored)
     for (int row = 0; row < 3; ++row) bone.m[4 * row] *= -1.1f;
   set_pose(scene, id, mirrored);
-  const float* m = instance.input.bones[0].m;
+  const float* m = instance.bones()[0].m;
   CHECK(dot(cross(Vec3{m[0], m[4], m[8]}, Vec3{m[1], m[5], m[9]}), Vec3{m[2], m[6], m[10]}) < -1);
 }
 

@@ -11,6 +11,7 @@ add_executable(nook_scene_tests
   scene_casters_test.cpp
   scene_light_test.cpp
   scene_levels_test.cpp
+  scene_pool_test.cpp
   sphere_groups_test.cpp)
 nook_target_options(nook_scene_tests)
 target_include_directories(nook_scene_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})

@@ -255,7 +255,8 @@ TEST_CASE("the memory of an instance is what the documents say") {
         "memory of an instance, tier %d: %.0f bytes in the scene (%.0f for an update on the CPU: %zu of the "
         "struct, %zu of bones, %zu of world casters, %lld of arrays), %.0f with a light; %.0f of places in "
         "nook_gl\n",
-        tier, held, full, sizeof(Instance), bones, casters, array_bytes(body).instance, held + lit, places);
+        tier, held, full, sizeof(Instance) + sizeof(InstanceParts), bones, casters,
+        array_bytes(body).instance, held + lit, places);
     // What compute shaders keep of an instance: AO, two numbers for each key point and for each point of the
     // largest coarse level, two vectors for each sphere of each level, and in the stream a record and bones.
     std::size_t spheres = body.spheres.size(), coarse = 0;

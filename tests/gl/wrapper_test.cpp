@@ -105,8 +105,19 @@ TEST_CASE("the C++ wrapper takes poses from the GPU") {
     nook::set_poses(gl, scene, poses, {one});
     gl.update(scene);
     CHECK(nook::read_pose(gl, scene, id, bones) == rows);
+    // The same in the pool of another scene, which has a place for it.
+    nook::Scene pooled(host);
+    nook::set_pool(gl, pooled, {0, 4, 10, 1});
+    one.instance = pooled.add_instance(model);
+    nook::set_poses(gl, pooled, poses, {one});
+    gl.update(pooled);
+    CHECK(nook::pool_info(gl, pooled).near_count == 1);
+    CHECK(nook::read_pool(gl, pooled, {one.instance})[0].is_near == 1);
+    CHECK(nook::read_pose(gl, pooled, one.instance, bones) == rows);
   } else {
     CHECK_THROWS_AS(nook::set_poses(gl, scene, poses, {one}), nook::Error);
+    nook::Scene pooled(host);
+    CHECK_THROWS_AS(nook::set_pool(gl, pooled, {0, 4, 10, 1}), nook::Error);
   }
   context.gl().DeleteBuffers(1, &buffer);
 }

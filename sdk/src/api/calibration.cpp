@@ -17,14 +17,14 @@ nook_result nook_scene_record_pose(nook_scene scene, nook_instance_id instance, 
     need_cpu_pose(recorded);
     decode_late_bones(recorded);
     const std::size_t room = *size;
-    *size = pose_record_size(recorded.input.bones.size());
+    *size = pose_record_size(recorded.bones().size());
     if (!bytes) return;
     if (room < *size)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "*size is too small (got %zu bytes, need %zu); call again with a larger buffer", room,
                     *size);
     write_pose_record(hash_of_bone_names(recorded.model->model.bone_names),
-                      {recorded.input.bones.data(), recorded.input.bones.size()},
+                      {recorded.bones().data(), recorded.bones().size()},
                       {static_cast<std::byte*>(bytes), *size});
   });
 }

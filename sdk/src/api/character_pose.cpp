@@ -138,7 +138,7 @@ void evaluate_run(const PoseBatch& batch, PoseRun& run, nook::Memory* memory) {
   const nook_instance_id id = add_instance(scene, Ref<const LoadedModel>::share(&batch.model));
   const Instance& instance = instance_of(scene, id);
   if (batch.ground) set_ground(scene, id, batch.ground);
-  const Vector<Mat3x4> rest(instance.input.bones, memory);
+  const Vector<Mat3x4> rest(instance.bones(), memory);
   const std::size_t vertices = batch.model.model.file_to_welded.size();
   for (; run.begin < run.end; ++run.begin) {
     PoseSource source = batch.first;

@@ -93,7 +93,7 @@ Casting::Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* pr
     : scene_(scene), receiver_(receiver), props_(props), prop_count_(prop_count) {
   if (!scene) return;
   for (Instance& instance : scene->instances)
-    if (instance.id && !instance.input.is_posed_on_gpu) pose_world_casters(instance);
+    if (instance.parts && !instance.input.is_posed_on_gpu) pose_world_casters(instance);
 }
 
 std::uint32_t Casting::group_count() const {
@@ -119,7 +119,7 @@ world::CasterGroup Casting::group(const void* user, std::uint32_t index, PosedCa
     if (index < scene->instances.size()) {
       const Instance& instance = scene->instances[index];
       if (!casting.casts(instance)) return {};
-      const InstanceCasters& casters = instance.casters;
+      const InstanceCasters& casters = instance.casters();
       return {{casters.posed.data(), casters.posed.size()},
               casters.bound.centre,
               casters.bound.radius,

@@ -34,8 +34,9 @@ inline float half_angle_radians(float degrees) {
 
 class Casting {
  public:
-  // Poses the casters of the scene's instances. Instances whose poses are on the GPU do not cast. `scene` may
-  // be NULL. `receiver` is an instance that must not cast, or 0.
+  // Poses the casters of the scene's instances. Instances whose poses are on the GPU do not cast, nor do
+  // instances in the far form of a pool. `scene` may be NULL. `receiver` is an instance that must not cast,
+  // or 0.
   Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* props, std::uint32_t prop_count);
 
   // Returns the number of groups. The groups are the bodies by slot, then the occluders by slot, then the
@@ -49,7 +50,7 @@ class Casting {
 
  private:
   bool casts(const Instance& instance) const {
-    return instance.id != 0 && instance.id != receiver_ && !instance.input.is_posed_on_gpu;
+    return instance.parts && instance.id != receiver_ && !instance.input.is_posed_on_gpu;
   }
   bool casts(const Occluder& occluder) const {
     return occluder.id != 0 && (occluder.receiver == 0 || occluder.receiver == receiver_);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "sdk/src/character/scene_clips.h"
+#include "sdk/src/character/scene_pool.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook {
@@ -12,7 +13,7 @@ void take_gpu_pose(Scene& scene, Instance& instance, const GpuPose& pose) noexce
   if (!input.is_posed_on_gpu) {
     input.is_posed_on_gpu = true;
     ++scene.posed_on_gpu;
-    std::fill(input.uneven.begin(), input.uneven.end(), false);
+    forget_uneven(instance);
     leave_clip(instance);
   }
   input.bound = pose.bound;
@@ -32,9 +33,15 @@ void need_cpu_pose(const Instance& instance) {
                   "the pose of instance %u is on the GPU, and this call needs it on the CPU; first set all "
                   "bones with nook_scene_set_pose, or set a clip",
                   instance.id);
+  if (instance.bones().empty())
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "instance %u belongs to a scene with a pool and has no bones on the CPU, which this call "
+                  "needs; first call nook_scene_set_pose or nook_scene_set_clip",
+                  instance.id);
 }
 
 void need_cpu_poses(const Scene& scene) {
+  need_no_pool(scene, "this call needs the bones of all instances on the CPU; use a scene without a pool");
   if (scene.posed_on_gpu == 0) return;
   for (const Instance& instance : scene.instances)
     if (instance.id) need_cpu_pose(instance);

@@ -24,9 +24,10 @@ void take_gpu_pose(Scene& scene, Instance& instance, const GpuPose& pose) noexce
 // From now on, the pose of the instance is on the CPU. Call it when the bones are set.
 void leave_gpu_pose(Scene& scene, Instance& instance) noexcept;
 
-// Throws Failure(NOOK_ERROR_UNSUPPORTED) if the pose of the instance is on the GPU.
+// Throws Failure(NOOK_ERROR_UNSUPPORTED) if the pose of the instance is on the GPU, or if it has no bones
+// because its scene has a pool.
 void need_cpu_pose(const Instance& instance);
-// Throws Failure(NOOK_ERROR_UNSUPPORTED) if the pose of any instance of the scene is on the GPU.
+// Throws Failure(NOOK_ERROR_UNSUPPORTED) if the scene has a pool, or the pose of any instance is on the GPU.
 void need_cpu_poses(const Scene& scene);
 
 }  // namespace nook

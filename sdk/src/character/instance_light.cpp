@@ -67,7 +67,7 @@ float norm_sum_of(float shadow, float saturation, float gamma) {
 // Computes the coloured shadow of all key points, shadow * (sum of y^gamma rho) / (sum of y^gamma). The sums
 // are the weighted sums of the evaluated key points.
 void colour_shadow(const Instance& instance, InstanceLight& light) {
-  const PointLanes& points = instance.result.arrays.points;
+  const PointLanes& points = instance.arrays().points;
   const float gamma = instance.model->model.kernel.gamma;
   const CharacterLevel* level =
       instance.plan.level ? &instance.model->model.levels[instance.plan.level - 1] : nullptr;
@@ -85,7 +85,7 @@ void colour_shadow(const Instance& instance, InstanceLight& light) {
 void spread_added(const Instance& instance, InstanceLight& light) {
   const CharacterLevel* level =
       instance.plan.level ? &instance.model->model.levels[instance.plan.level - 1] : nullptr;
-  for (std::uint32_t k = 0; k < instance.result.arrays.points.count; ++k)
+  for (std::uint32_t k = 0; k < instance.arrays().points.count; ++k)
     for (int c = 0; c < 3; ++c) light.added[c][k] = light.sum[c][level ? level->source[k] : k];
 }
 
@@ -135,7 +135,14 @@ void check_light_lobes(std::span<const SphericalGaussian> lobes) {
 void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGaussian> lobes) {
   Instance& instance = instance_of(scene, id);
   check_light_lobes(lobes);
-  InstanceLight& light = instance.light;
+  if (scene.pool.is_used()) {
+    if (lobes.empty()) return;
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the scene has a pool, whose instances cannot have lights; use a scene without a pool for "
+                  "instance %u",
+                  id);
+  }
+  InstanceLight& light = instance.parts->light;
   if (!lobes.empty() && light.lobes.size() == 0) {
     allocate(light, scene, *instance.model);
     ++scene.structure_revision;
@@ -153,11 +160,12 @@ void set_light(Scene& scene, nook_instance_id id, std::span<const SphericalGauss
 }
 
 void make_light_arrays(const Scene& scene, Instance& instance) {
-  if (instance.light.lobes.size()) take_storage(instance.light, make_storage(*instance.model, scene.memory));
+  InstanceLight& light = instance.parts->light;
+  if (light.lobes.size()) take_storage(light, make_storage(*instance.model, scene.memory));
 }
 
 void leave_light_arrays(Instance& instance) noexcept {
-  take_storage(instance.light, {});
+  take_storage(instance.parts->light, {});
 }
 
 InstanceLight moved_light(const Scene& scene, const InstanceLight& light, const LoadedModel& model) {
@@ -174,7 +182,7 @@ InstanceLight moved_light(const Scene& scene, const InstanceLight& light, const 
 // In the paper's form, the ground is one of the spheres of the norm. The norm then accounts for the light
 // that the ground removes, so the lobes are not reduced here.
 void prepare_light(const Scene& scene, Instance& instance) noexcept {
-  InstanceLight& light = instance.light;
+  InstanceLight& light = instance.parts->light;
   const bool hides = instance.plan.ground_sphere.radius > 0 && scene.settings.form == NOOK_FORM_DEFAULT;
   light.bands = {};
   light.bands.darkest = light.darkest;
@@ -187,7 +195,7 @@ void prepare_light(const Scene& scene, Instance& instance) noexcept {
 }
 
 void evaluate_directional(const Scene& scene, Instance& instance) noexcept {
-  InstanceLight& light = instance.light;
+  InstanceLight& light = instance.parts->light;
   if (light.count == 0) return;
   prepare_light(scene, instance);
   const PointLanes points = evaluated_points(instance);

@@ -13,8 +13,7 @@ namespace nook {
 inline SphereSoa spheres_of(const Instance& instance, std::uint32_t level) {
   const LoadedModel& model = *instance.model;
   const std::size_t l = std::min<std::size_t>(level, model.levels.size());
-  const SphereLanes& s =
-      l == 0 ? instance.result.arrays.spheres : instance.result.arrays.coarse_spheres[l - 1];
+  const SphereLanes& s = l == 0 ? instance.arrays().spheres : instance.arrays().coarse_spheres[l - 1];
   const RestSpheres& rest = l == 0 ? model.rest_spheres : model.levels[l - 1].rest_spheres;
   return {s.x, s.y, s.z, s.inverse_radius, rest.caster_weight(), s.count};
 }
@@ -32,8 +31,8 @@ inline SphereSoa caster_spheres(const Scene& scene, const Instance& receiver, co
   const InstanceResult& result = caster.result;
   if (result.grouped_revision == caster.input.pose_revision) {
     for (std::uint32_t t = group_tiers; t-- > 0;) {
-      const GroupLanes& g = result.arrays.groups[t];
-      if (group_error(g, receiver.result.receiver) < scene.settings.far_error)
+      const GroupLanes& g = caster.arrays().groups[t];
+      if (group_error(g, receiver.parts->receiver) < scene.settings.far_error)
         return {g.x, g.y, g.z, g.inverse_radius, g.caster_weight, g.count};
     }
   }
@@ -53,7 +52,7 @@ inline const RestKeyPoints& rest_points_of(const Instance& instance) {
 
 // Returns the lanes of the key points that are evaluated at the instance's level.
 inline PointLanes evaluated_points(const Instance& instance) {
-  PointLanes points = instance.result.arrays.points;
+  PointLanes points = instance.arrays().points;
   points.padded_count = rest_points_of(instance).padded_count();
   if (instance.plan.level > 0)
     points.count =

@@ -20,6 +20,7 @@
 #include "sdk/src/character/pose_bound.h"
 #include "sdk/src/character/pose_source.h"
 #include "sdk/src/core/aligned_array.h"
+#include "sdk/src/core/box.h"
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/geometry.h"
 #include "sdk/src/core/parallel.h"
@@ -114,8 +115,8 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory);
 struct InstanceClip {
   Ref<const LoadedClips> clips;  // null: the host sets the pose, and the model computes the self-shadow
   FrameMix mix;                  // the time of the last set_clip or set_clips
-  // True if InstanceInput::bones still hold an earlier pose, because the current pose comes from set_clips.
-  // Then `place` is the place that set_clips got, and decode_late_bones computes the bones (scene_clips.h).
+  // True if InstanceParts::bones are of an earlier pose, because only set_clips gave this one. Then `place`
+  // is its place, and decode_late_bones makes the bones (scene_clips.h).
   bool is_late = false;
   Mat3x4 place;
   std::uint64_t call = 0;  // the value of Scene::clip_calls at the last set_clips that included this instance
@@ -124,7 +125,7 @@ struct InstanceClip {
 
 // What the host set for an instance, and values that are derived from these settings alone.
 struct InstanceInput {
-  explicit InstanceInput(Memory* memory) : bones(memory), uneven(memory), linked(memory), receivers(memory) {}
+  explicit InstanceInput(Memory* memory) : linked(memory), receivers(memory) {}
 
   // These fields come first and are next to each other, because set_clips writes them for whole crowds.
   std::uint64_t pose_revision = 0;  // incremented by every set_pose; never 0 for an instance in use
@@ -132,14 +133,12 @@ struct InstanceInput {
   // transformed by the root bone. `scale` is an upper bound of the scales of the bones.
   Sphere bound;
   float scale = 1;
-  // True if the current pose is only on the GPU, and `bones` holds an earlier one (gpu_pose.h).
+  // True if the current pose is only on the GPU, and InstanceParts::bones hold an earlier one (gpu_pose.h).
   bool is_posed_on_gpu = false;
+  bool has_ground = false;
   InstanceClip clip;
 
-  Vector<Mat3x4> bones;        // rest space to world, one for each bone of the model
-  UnevenBones uneven;          // the bones of the current pose that were projected
   std::uint32_t reported = 0;  // bits of the PoseNotes topics that were already logged for this instance
-  bool has_ground = false;
   Plane ground;
   Vector<std::uint32_t> linked;  // slots of the casters that the host linked, ascending
   // Slots of the instances that have this instance in `linked`, ascending. When this instance is removed, it
@@ -168,18 +167,16 @@ struct InstancePlan {
                                     // is below cutoff_error
   std::uint32_t level = 0;          // level of detail of the model, 0 is full detail
   bool due = true;                  // evaluated in this update; other instances keep their results
-  std::uint64_t frame = 0;          // Scene::frame in which the lists were made; 0: never
+  // True in the far form of a pool (scene_pool.h). Then the instance is never due and darkens nobody.
+  bool is_far = false;
+  std::uint64_t frame = 0;  // Scene::frame in which the lists were made; 0: never
 };
 
-// The results of an evaluation on the CPU.
+// What is known about the last evaluation on the CPU; InstanceParts has its values.
 struct InstanceResult {
-  InstanceArrays arrays;
   std::uint64_t transformed_revision = 0;  // pose_revision for which the spheres in `arrays` were computed
   std::uint64_t coarse_revision = 0;       // pose_revision of the coarse spheres
   std::uint64_t grouped_revision = 0;      // pose_revision of the groups
-  Receiver receiver;                       // where casters darken the instance: computed from the surface
-                                           // positions of its key points; only valid if casters may be
-                                           // grouped
   std::uint64_t evaluated_frame = 0;       // Scene::frame of the last evaluation; 0: never
   std::uint64_t evaluations = 0;           // sphere-key-point pairs of the last evaluation
   bool has_added = false;  // true if PointLanes::added of the last evaluation is not zero everywhere
@@ -197,8 +194,22 @@ struct InstanceCasters {
                                      // 0: never posed
 };
 
+// The large part of an instance. In a scene with a pool, an instance has it only while it is near, or after
+// the host posed it on the CPU (scene_pool.h).
+struct InstanceParts {
+  explicit InstanceParts(Memory* memory) : bones(memory), uneven(memory), casters(memory) {}
+
+  Vector<Mat3x4> bones;  // rest space to world, one for each bone of the model; none if the pool lends them
+  UnevenBones uneven;    // of the current pose
+  InstanceArrays arrays;
+  Receiver receiver;  // made from the surface positions of the key points; only valid if casters may be
+                      // grouped
+  InstanceLight light;
+  InstanceCasters casters;
+};
+
 struct Instance {
-  explicit Instance(Memory* memory) : input(memory), plan(memory), casters(memory) {}
+  explicit Instance(Memory* memory) : input(memory), plan(memory) {}
 
   nook_instance_id id = 0;        // 0: this slot is free, and everything below except `generation` is empty
   std::uint32_t generation = 0;   // number of earlier uses of the slot; part of the id
@@ -208,8 +219,17 @@ struct Instance {
   InstanceInput input;
   InstancePlan plan;
   InstanceResult result;
-  InstanceLight light;
-  InstanceCasters casters;
+  Box<InstanceParts> parts;
+
+  // Read a part. Without parts, they return an empty one.
+  const Vector<Mat3x4>& bones() const { return read_parts().bones; }
+  const UnevenBones& uneven() const { return read_parts().uneven; }
+  const InstanceArrays& arrays() const { return read_parts().arrays; }
+  const InstanceLight& light() const { return read_parts().light; }
+  const InstanceCasters& casters() const { return read_parts().casters; }
+
+ private:
+  const InstanceParts& read_parts() const;
 };
 
 struct Occluder {
@@ -229,6 +249,20 @@ struct SceneSettings {
   std::uint32_t lod_max_interval = 1;
   float ground_radius = 0;    // metres; 0: default_ground_radii times the body's bounding radius
   bool strict_poses = false;  // if true, set_pose fails for uneven matrices instead of projecting them
+};
+
+// The pool of a scene: only near instances have parts and places on the GPU (scene_pool.h).
+struct ScenePool {
+  explicit ScenePool(Memory* memory) : spare(memory) {}
+
+  std::uint32_t places = 0;  // for the instances of each model; 0: the scene has no pool
+  float distance = 0;        // metres from the camera
+  Vector<Box<InstanceParts>> spare;
+  std::uint32_t made = 0;  // parts, spare or lent
+  // Scene::structure_revision for which there are enough parts.
+  std::uint64_t reserved_revision = 0;
+  std::uint32_t generation = 0;  // of the last change of an instance's view
+  bool is_used() const { return places > 0; }
 };
 
 struct Scene {
@@ -271,6 +305,8 @@ struct Scene {
   // nothing.
   Vector<Mat3x4> converted;
   UnevenBones converted_uneven;
+
+  ScenePool pool;
 
   std::uint64_t frame = 0;  // number of updates so far
   nook_scene_info stats{};  // all fields except memory_bytes

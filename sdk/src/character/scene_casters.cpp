@@ -14,7 +14,7 @@ float caster_strength(const PosedCaster& caster) {
 }
 
 void pose_world_casters(Instance& instance) noexcept {
-  InstanceCasters& casters = instance.casters;
+  InstanceCasters& casters = instance.parts->casters;
   if (casters.posed_revision == instance.input.pose_revision) return;
   casters.posed_revision = instance.input.pose_revision;
   casters.strength = 0;
@@ -127,7 +127,8 @@ void gather_casters(const Scene& scene, std::uint32_t slot, Instance& receiver) 
     else
       ++receiver.plan.culled;
   };
-  for (const std::uint32_t caster : receiver.input.linked) offer(caster);
+  for (const std::uint32_t caster : receiver.input.linked)
+    if (!scene.instances[caster].plan.is_far) offer(caster);
   std::array<Neighbour, max_nearest> found;
   const std::uint32_t count = find_nearest(scene.neighbours, slot, receiver.input.bound.centre, scene.nearest,
                                            scene.nearest_max_distance, found);
@@ -180,8 +181,8 @@ void place_ground(const Scene& scene, Instance& receiver) {
 // its distance.
 void choose_detail(const Scene& scene, std::uint32_t slot, bool has_result, Instance& instance) {
   instance.plan.level = 0;
-  instance.plan.due = true;
-  if (!scene.has_camera) return;
+  instance.plan.due = !instance.plan.is_far;
+  if (instance.plan.is_far || !scene.has_camera) return;
   const SceneSettings& settings = scene.settings;
   const float distance = length(instance.input.bound.centre - scene.camera) / settings.lod_distance;
   const auto& levels = instance.model->model.levels;
@@ -198,7 +199,7 @@ void resolve_casters(Scene& scene, HasResult has_result) noexcept {
   if (scene.nearest > 0) {
     clear_tree(scene.neighbours);
     for (std::uint32_t slot = 0; slot < scene.instances.size(); ++slot)
-      if (scene.instances[slot].id)
+      if (scene.instances[slot].id && !scene.instances[slot].plan.is_far)
         add_to_tree(scene.neighbours, slot, scene.instances[slot].input.bound.centre);
     build_tree(scene.neighbours);
   }

@@ -101,7 +101,7 @@ void take_clip(Scene& scene, const Ref<const LoadedClips>& clips, const nook_ins
   leave_gpu_pose(scene, instance);
   if (input.clip.clips.get() != clips.get() || !input.clip.is_late) {
     ++scene.clips_revision;
-    std::fill(input.uneven.begin(), input.uneven.end(), false);
+    forget_uneven(instance);
     input.clip.clips = clips;
     input.clip.is_late = true;
   }
@@ -121,9 +121,9 @@ void fetch_ahead(const Scene& scene, std::span<const nook_instance_clip> given, 
   if (index + ahead >= given.size()) return;
   const std::size_t slot = (given[index + ahead].instance & max_slots) - std::size_t{1};
   if (slot >= scene.instances.size()) return;
-  // set_clips accesses only the fields in front of `bones`.
+  // set_clips accesses only the fields in front of `reported`.
   const Instance& instance = scene.instances[slot];
-  const auto* const end = reinterpret_cast<const std::byte*>(&instance.input.bones);
+  const auto* const end = reinterpret_cast<const std::byte*>(&instance.input.reported);
   for (const auto* at = reinterpret_cast<const std::byte*>(&instance); at < end; at += line) prefetch(at);
 }
 
@@ -144,14 +144,15 @@ void set_clips(Scene& scene, const Ref<const LoadedClips>& clips, std::span<cons
 void decode_late_bones(Instance& instance) noexcept {
   InstanceClip& clip = instance.input.clip;
   if (!clip.is_late) return;
-  for (std::size_t b = 0; b < instance.input.bones.size(); ++b)
-    instance.input.bones[b] = decode_bone(clip.clips->set, clip.mix, clip.place, b);
+  Vector<Mat3x4>& bones = instance.parts->bones;
+  for (std::size_t b = 0; b < bones.size(); ++b)
+    bones[b] = decode_bone(clip.clips->set, clip.mix, clip.place, b);
   clip.is_late = false;
 }
 
 Mat3x4 bone_of(const Instance& instance, std::size_t bone) noexcept {
   const InstanceClip& clip = instance.input.clip;
-  return clip.is_late ? decode_bone(clip.clips->set, clip.mix, clip.place, bone) : instance.input.bones[bone];
+  return clip.is_late ? decode_bone(clip.clips->set, clip.mix, clip.place, bone) : instance.bones()[bone];
 }
 
 }  // namespace nook

@@ -5,6 +5,7 @@
 
 #include <nook/experimental/nook_clip_crowds.h>
 
+#include <algorithm>
 #include <span>
 
 #include "sdk/src/character/scene.h"
@@ -21,7 +22,12 @@ void decode_late_bones(Instance& instance) noexcept;
 // Returns one bone without decoding the others.
 Mat3x4 bone_of(const Instance& instance, std::size_t bone) noexcept;
 
-// Ends the clip of the instance. From now on, the host sets its pose.
+// The current pose has no projected bone.
+inline void forget_uneven(Instance& instance) noexcept {
+  if (instance.parts) std::fill(instance.parts->uneven.begin(), instance.parts->uneven.end(), false);
+}
+
+// The host sets the pose of the instance from now on.
 inline void leave_clip(Instance& instance) noexcept {
   instance.input.clip.clips = {};
   instance.input.clip.is_late = false;

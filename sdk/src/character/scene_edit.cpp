@@ -7,6 +7,7 @@
 #include "sdk/src/character/pose_bound.h"
 #include "sdk/src/character/scene.h"
 #include "sdk/src/character/scene_clips.h"
+#include "sdk/src/character/scene_pool.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/core/geometry.h"
@@ -46,8 +47,8 @@ Mat3x4 evened(const CharacterModel& model, const Mat3x4& matrix, std::size_t bon
 }
 
 void derive_bound(Instance& instance, float largest_scale_squared) {
-  const PoseBound bound = bound_of_bones(
-      *instance.model, {instance.input.bones.data(), instance.input.bones.size()}, largest_scale_squared);
+  const PoseBound bound = bound_of_bones(*instance.model, {instance.bones().data(), instance.bones().size()},
+                                         largest_scale_squared);
   instance.input.bound = {bound.centre, bound.radius};
   instance.input.scale = bound.scale;
 }
@@ -126,7 +127,8 @@ Scene::Scene(const SceneSettings& scene_settings, const Parallel& host_parallel,
       free_occluders(memory),
       neighbours(memory),
       converted(memory),
-      converted_uneven(memory) {}
+      converted_uneven(memory),
+      pool(memory) {}
 
 Instance& instance_of(Scene& scene, nook_instance_id id) {
   return find(scene.instances, id, "instance");
@@ -141,20 +143,23 @@ nook_instance_id add_instance(Scene& scene, Ref<const LoadedModel> model) {
   Instance added(scene.memory);
   added.generation = fresh ? 0 : scene.instances[slot].generation;
   added.id = added.generation << id_slot_bits | (slot + 1);
-  added.input.bones.resize(model->model.bone_count());
-  added.input.uneven.resize(model->model.bone_count());
-  if (scene.converted.size() < added.input.bones.size()) {
-    scene.converted.resize(added.input.bones.size());
-    scene.converted_uneven.resize(added.input.bones.size());
+  const std::size_t bones = model->model.bone_count();
+  if (scene.converted.size() < bones) {
+    scene.converted.resize(bones);
+    scene.converted_uneven.resize(bones);
   }
-  if (scene.has_arrays) added.result.arrays = make_instance_arrays(*model, scene.memory);
-  added.casters.posed.resize(model->model.world_casters.size());
   added.plan.casters.reserve(scene.nearest);
   added.plan.occluders.reserve(scene.occluders.size());
   added.model = std::move(model);
+  need_own_parts(scene, added);
+  if (scene.has_arrays) added.parts->arrays = make_instance_arrays(*added.model, scene.memory);
   added.input.pose_revision = 1;
   added.added_frame = scene.frame;
   derive_bound(added, 1);
+  if (scene.pool.is_used()) {
+    added.parts = {};
+    added.plan.is_far = true;
+  }
   const std::size_t slots = scene.instances.size() + (fresh ? 1 : 0);
   if (scene.nearest) reserve_tree(scene.neighbours, std::bit_ceil(slots));
   if (fresh) {
@@ -177,6 +182,7 @@ void remove_instance(Scene& scene, nook_instance_id id) {
   for (const std::uint32_t caster : removed.input.linked)
     erase_slot(scene.instances[caster].input.receivers, slot);
   leave_gpu_pose(scene, removed);
+  return_parts(scene, removed);
   removed = Instance(scene.memory);
   removed.generation = generation;
   if (generation < id_generations) scene.free_instances.push_back(slot);
@@ -198,15 +204,16 @@ PoseNotes take_pose(Instance& instance, std::span<const Mat3x4> bones) {
   PoseNotes notes;
   notes.bones = static_cast<std::uint32_t>(bones.size());
   float longest_squared = 0;
+  InstanceParts& parts = *instance.parts;
   for (std::size_t b = 0; b < bones.size(); ++b) {
     BoneAxes<float> axes = axes_of(bones[b]);
     const bool is_uneven = !axes.is_even();
-    instance.input.bones[b] = bones[b];
-    instance.input.uneven[b] = is_uneven;
+    parts.bones[b] = bones[b];
+    parts.uneven[b] = is_uneven;
     if (is_uneven) {
       note_uneven(notes, b, axes_of(to_double(bones[b])));
-      instance.input.bones[b] = evened(model, bones[b], b);
-      axes = axes_of(instance.input.bones[b]);
+      parts.bones[b] = evened(model, bones[b], b);
+      axes = axes_of(parts.bones[b]);
     }
     longest_squared = std::max(longest_squared, axes.longest_squared);
   }
@@ -239,7 +246,7 @@ void make_arrays(Scene& scene) {
   try {
     for (Instance& instance : scene.instances) {
       if (instance.id == 0) continue;
-      instance.result.arrays = make_instance_arrays(*instance.model, scene.memory);
+      instance.parts->arrays = make_instance_arrays(*instance.model, scene.memory);
       make_light_arrays(scene, instance);
     }
   } catch (...) {
@@ -252,7 +259,8 @@ void make_arrays(Scene& scene) {
 void leave_arrays(Scene& scene) noexcept {
   if (scene.was_updated_on_cpu) return;
   for (Instance& instance : scene.instances) {
-    instance.result.arrays = {};
+    if (!instance.parts) continue;
+    instance.parts->arrays = {};
     leave_light_arrays(instance);
   }
   scene.has_arrays = false;
@@ -260,26 +268,27 @@ void leave_arrays(Scene& scene) noexcept {
 
 void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) {
   Instance& instance = instance_of(scene, id);
-  if (model->model.bone_count() != instance.input.bones.size())
+  const std::size_t bones = instance.model->model.bone_count();
+  if (model->model.bone_count() != bones)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the new model and the instance have different numbers of bones (got %zu, need %zu); "
                   "remove the instance and add it with the new model",
-                  model->model.bone_count(), instance.input.bones.size());
+                  model->model.bone_count(), bones);
   need_cpu_pose(instance);
   decode_late_bones(instance);
   InstanceArrays arrays;
   if (scene.has_arrays) arrays = make_instance_arrays(*model, scene.memory);
-  InstanceLight light = moved_light(scene, instance.light, *model);
+  InstanceLight light = moved_light(scene, instance.light(), *model);
   InstanceCasters casters(scene.memory);
   casters.posed.resize(model->model.world_casters.size());
-  instance.result.arrays = std::move(arrays);
-  instance.light = std::move(light);
+  instance.parts->arrays = std::move(arrays);
+  instance.parts->light = std::move(light);
   // The clips belong to the old model. The instance keeps its pose until the host sets another one.
   leave_clip(instance);
-  instance.casters = std::move(casters);
+  instance.parts->casters = std::move(casters);
   instance.model = std::move(model);
   float longest_squared = 0;
-  for (const Mat3x4& bone : instance.input.bones)
+  for (const Mat3x4& bone : instance.bones())
     longest_squared = std::max(longest_squared, axes_of(bone).longest_squared);
   derive_bound(instance, longest_squared);
   ++instance.input.pose_revision;
@@ -290,11 +299,13 @@ void set_model(Scene& scene, nook_instance_id id, Ref<const LoadedModel> model) 
 
 PoseNotes set_pose(Scene& scene, nook_instance_id id, std::span<const Mat3x4> bones) {
   Instance& instance = instance_of(scene, id);
-  if (bones.size() != instance.input.bones.size())
+  const std::size_t wanted = instance.model->model.bone_count();
+  if (bones.size() != wanted)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "bone_count differs from the model's bone count (got %zu, need %zu); see nook_model_describe",
-        bones.size(), instance.input.bones.size());
+        bones.size(), wanted);
+  need_own_parts(scene, instance);
   const PoseNotes notes = set_bones(instance, bones, scene.settings.strict_poses);
   leave_gpu_pose(scene, instance);
   return notes;
@@ -311,6 +322,7 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
     need_cpu_pose(instance);
     decode_late_bones(instance);
   }
+  need_own_parts(scene, instance);
   static_assert(sizeof(Mat3x4) == 12 * sizeof(float) && alignof(Mat3x4) == alignof(float));
   if (holds_bone_matrices(source)) {
     PoseNotes notes =
@@ -321,15 +333,16 @@ PoseNotes set_pose(Scene& scene, nook_instance_id id, PoseSource source) {
     leave_gpu_pose(scene, instance);
     return notes;
   }
-  const std::span<Mat3x4> converted(scene.converted.data(), instance.input.bones.size());
-  std::copy(instance.input.bones.begin(), instance.input.bones.end(), converted.begin());
-  std::copy(instance.input.uneven.begin(), instance.input.uneven.end(), scene.converted_uneven.begin());
+  InstanceParts& parts = *instance.parts;
+  const std::span<Mat3x4> converted(scene.converted.data(), parts.bones.size());
+  std::copy(parts.bones.begin(), parts.bones.end(), converted.begin());
+  std::copy(parts.uneven.begin(), parts.uneven.end(), scene.converted_uneven.begin());
   const PoseNotes notes = convert_pose(model, source, converted, &scene.converted_uneven);
   leave_clip(instance);
-  std::copy_n(scene.converted_uneven.begin(), converted.size(), instance.input.uneven.begin());
+  std::copy_n(scene.converted_uneven.begin(), converted.size(), parts.uneven.begin());
   float longest_squared = 0;
   for (std::size_t b = 0; b < converted.size(); ++b) {
-    instance.input.bones[b] = converted[b];
+    parts.bones[b] = converted[b];
     longest_squared = std::max(longest_squared, axes_of(converted[b]).longest_squared);
   }
   finish_pose(instance, longest_squared);
@@ -346,7 +359,8 @@ PoseNotes set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> cli
                   "the clips were not loaded for the model of instance %u; load them with this model", id);
   const PoseNotes notes = notes_of_place(model, place);
   if (notes.is_place_uneven && scene.settings.strict_poses) fail_uneven(model, notes.first, notes.axes);
-  const std::span<Mat3x4> posed(scene.converted.data(), instance.input.bones.size());
+  need_own_parts(scene, instance);
+  const std::span<Mat3x4> posed(scene.converted.data(), model.bone_count());
   for (std::size_t b = 0; b < posed.size(); ++b) {
     posed[b] = decode_bone(clips->set, mix, place, b);
     check_size(model, b, posed[b]);
@@ -357,7 +371,7 @@ PoseNotes set_clip(Scene& scene, nook_instance_id id, Ref<const LoadedClips> cli
   clip.clips = std::move(clips);
   take_pose(instance, posed);
   leave_gpu_pose(scene, instance);
-  std::fill(instance.input.uneven.begin(), instance.input.uneven.end(), notes.is_place_uneven);
+  std::fill(instance.parts->uneven.begin(), instance.parts->uneven.end(), notes.is_place_uneven);
   return notes;
 }
 

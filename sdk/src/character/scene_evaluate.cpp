@@ -63,7 +63,7 @@ std::size_t join_paper_norm(const Scene& scene, const Instance& instance, const 
 std::uint64_t sum_own_spheres(const Scene& scene, const Instance& instance, const PointLanes& points) {
   const SphereSoa spheres = spheres_of(instance, instance.plan.level);
   const SphereTree& tree = instance.model->sphere_tree;
-  if (may_group(scene) && !tree.is_empty() && instance.plan.level == 0 && instance.light.count == 0) {
+  if (may_group(scene) && !tree.is_empty() && instance.plan.level == 0 && instance.light().count == 0) {
     PosedSphereTree posed;
     return scene.kernels->tree_sum(pose_tree(tree, spheres, scene.settings.far_error, posed),
                                    fitted_points(points), points.norm_sum);
@@ -87,7 +87,7 @@ void spread_level(const CharacterLevel& level, bool with_self, const PointLanes&
 
 void encode_shadows(const Scene& scene, Instance& instance) {
   const LinearView& layer = instance.model->linear.view();
-  PointLanes& p = instance.result.arrays.points;
+  PointLanes& p = instance.parts->arrays.points;
   scene.kernels->encode_points(p.shadow, p.padded_count, layer.shadow_limit, p.shadow_codes);
   if (instance.result.has_added)
     scene.kernels->encode_points(p.added, p.padded_count, layer.occlusion_limit, p.added_codes);
@@ -97,17 +97,17 @@ void encode_shadows(const Scene& scene, Instance& instance) {
 
 void transform_spheres(const Scene& scene, Instance& instance) noexcept {
   const auto transform = [&](const RestSpheres& rest, const SphereLanes& s) {
-    scene.kernels->pose_spheres(rest.view(), instance.input.bones.data(), {},
-                                {s.x, s.y, s.z, s.inverse_radius});
+    scene.kernels->pose_spheres(rest.view(), instance.bones().data(), {}, {s.x, s.y, s.z, s.inverse_radius});
   };
   InstanceResult& result = instance.result;
+  const InstanceArrays& arrays = instance.arrays();
   const std::uint64_t revision = instance.input.pose_revision;
-  if (result.transformed_revision != revision) transform(instance.model->rest_spheres, result.arrays.spheres);
+  if (result.transformed_revision != revision) transform(instance.model->rest_spheres, arrays.spheres);
   result.transformed_revision = revision;
   const bool needs_coarse = instance.plan.level > 0 || may_darken(scene, instance);
   if (!needs_coarse || result.coarse_revision == revision) return;
   for (std::size_t l = 0; l < instance.model->levels.size(); ++l)
-    transform(instance.model->levels[l].rest_spheres, result.arrays.coarse_spheres[l]);
+    transform(instance.model->levels[l].rest_spheres, arrays.coarse_spheres[l]);
   result.coarse_revision = revision;
 }
 
@@ -117,7 +117,7 @@ void group_spheres(const Scene& scene, Instance& instance) noexcept {
   SphereSoa parts = spheres_of(instance, 0);
   const float* moments = nullptr;
   for (std::uint32_t t = 0; t < group_tiers; ++t) {
-    const GroupLanes& groups = instance.result.arrays.groups[t];
+    const GroupLanes& groups = instance.arrays().groups[t];
     merge_groups(instance.model->groups.tier(t), parts, moments, groups);
     moments = groups.moment;
     parts = {groups.x, groups.y, groups.z, groups.inverse_radius, groups.caster_weight, groups.count};
@@ -126,16 +126,16 @@ void group_spheres(const Scene& scene, Instance& instance) noexcept {
 }
 
 void transform_key_points(const Scene& scene, Instance& instance) noexcept {
-  const PointLanes& p = instance.result.arrays.points;
+  const PointLanes& p = instance.arrays().points;
   const KeyPointTarget fitted{p.x, p.y, p.z, p.nx, p.ny, p.nz};
   const KeyPointTarget surface{p.surface_x,  p.surface_y,  p.surface_z,
                                p.surface_nx, p.surface_ny, p.surface_nz};
   const bool is_surface_felt = scene.settings.form == NOOK_FORM_DEFAULT && has_casters(instance);
-  scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.input.bones.data(), {}, fitted,
+  scene.kernels->pose_key_points(rest_points_of(instance).view(), instance.bones().data(), {}, fitted,
                                  is_surface_felt ? &surface : nullptr);
   if (may_group(scene) && !instance.plan.casters.empty()) {
     const PointLanes points = evaluated_points(instance);
-    instance.result.receiver = receiver_of(points.surface_x, points.surface_y, points.surface_z, points.count,
+    instance.parts->receiver = receiver_of(points.surface_x, points.surface_y, points.surface_z, points.count,
                                            instance.input.largest_scale());
   }
 }
@@ -157,7 +157,7 @@ void evaluate_shadows(const Scene& scene, Instance& instance) noexcept {
   } else {
     scene.kernels->norm_root(points.norm_sum, saturation, points.padded_count, kernel.gamma, points.norm_sum);
     spread_level(instance.model->model.levels[instance.plan.level - 1], has_self_shadow(scene, instance),
-                 instance.result.arrays.points);
+                 instance.arrays().points);
   }
   encode_shadows(scene, instance);
   instance.result.evaluated_frame = scene.frame;
@@ -274,7 +274,7 @@ void for_each_ao(const Scene& scene, const Instance& instance, void* out, Stride
     return;
   }
   const Self self = self_of(scene, instance);
-  const PointLanes& points = instance.result.arrays.points;
+  const PointLanes& points = instance.arrays().points;
   const PointCodes* const added = instance.result.has_added ? &points.added_codes : nullptr;
   ClipWeights weights;
   mix_weights(instance, self, weights);
@@ -334,7 +334,7 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
     const float rgb[] = {r, g, b};
     std::memcpy(place, rgb, sizeof rgb);
   };
-  const InstanceLight& light = instance.light;
+  const InstanceLight& light = instance.light();
   if (!light.evaluated)
     return for_each_ao<float>(scene, instance, out, stride_bytes, same,
                               [&](unsigned char* place, float ao) { put_three(place, ao, ao, ao); });
@@ -349,7 +349,7 @@ void read_directional_ao(const Scene& scene, const Instance& instance, float* ou
   for_each_chunk(
       loaded, open_bias_of(loaded, self), out, stride_bytes,
       [&](const LinearView& chunk, std::uint32_t first_slot) {
-        scene.kernels->directional_linear_layer(chunk, instance.result.arrays.points.shadow, light.shadow,
+        scene.kernels->directional_linear_layer(chunk, instance.arrays().points.shadow, light.shadow,
                                                 composed ? light.added : nullptr, rgb);
         if (self != Self::clip) return;
         decode_clip(instance, weights, chunk, first_slot, own);

@@ -15,8 +15,9 @@ std::uint64_t instance_bytes(const LoadedModel& model) {
     words += sphere_lanes * padded_count(level.rest_spheres.view().count);
   for (std::uint32_t t = 0; t < group_tiers; ++t)
     words += group_lanes * padded_count(model.groups.tier(t).count());
-  return sizeof(Instance) + words * sizeof(float) + model.model.bone_count() * sizeof(Mat3x4) +
-         model.model.world_casters.size() * sizeof(PosedCaster) + (model.model.bone_count() + 7) / 8;
+  return sizeof(Instance) + sizeof(InstanceParts) + words * sizeof(float) +
+         model.model.bone_count() * sizeof(Mat3x4) + model.model.world_casters.size() * sizeof(PosedCaster) +
+         (model.model.bone_count() + 7) / 8;
 }
 
 std::uint64_t light_bytes(const LoadedModel& model) {
@@ -27,7 +28,7 @@ std::uint64_t light_bytes(const LoadedModel& model) {
 std::uint32_t uneven_instances(const Scene& scene) noexcept {
   std::uint32_t count = 0;
   for (const Instance& instance : scene.instances) {
-    const UnevenBones& uneven = instance.input.uneven;
+    const UnevenBones& uneven = instance.uneven();
     count += instance.id && std::find(uneven.begin(), uneven.end(), true) != uneven.end();
   }
   return count;
@@ -69,14 +70,14 @@ bool is_there(const Instance& caster, const InstancePlan& plan) {
 
 nook_scene_key_point posed(const Instance& instance, std::uint32_t index) {
   const KeyPoint& point = instance.model->model.key_points[index];
-  const Mat3x4 blend = blended(instance.input.bones, point);
+  const Mat3x4 blend = blended(instance.bones(), point);
   const bool has_values = instance.result.evaluated_frame > 0;
   nook_scene_key_point out{};
   write(out.position_ws, transform_point(blend, point.position));
   write(out.normal_ws, normalised(transform_vector(blend, point.normal)));
   write(out.surface_position_ws, transform_point(blend, point.surface_position));
-  out.shadow = has_values ? instance.result.arrays.points.shadow[index] : -1;
-  out.added = has_values ? instance.result.arrays.points.added[index] : -1;
+  out.shadow = has_values ? instance.arrays().points.shadow[index] : -1;
+  out.added = has_values ? instance.arrays().points.added[index] : -1;
   out.index = index;
   return out;
 }
@@ -118,7 +119,7 @@ nook_scene_instance_info describe_instance(const Scene& scene, const Instance& i
 
 void read_spheres(const Instance& instance, nook_scene_sphere* out) noexcept {
   for (const ProxySphere& sphere : spheres_of(instance)) {
-    const Mat3x4& bone = instance.input.bones[sphere.bone];
+    const Mat3x4& bone = instance.bones()[sphere.bone];
     // Bones are rigid or have a uniform scale, so the length of each row of the linear part is the scale.
     const float scale = length({bone.m[0], bone.m[1], bone.m[2]});
     nook_scene_sphere& posed_sphere = *out++;

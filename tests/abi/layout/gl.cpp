@@ -66,6 +66,24 @@ NOOK_AT(nook_gl_poses, texture, 20);
 NOOK_AT(nook_gl_poses, offset, 24);
 NOOK_AT(nook_gl_poses, size, 32);
 
+NOOK_SIZE(nook_gl_pool_desc, 16);
+NOOK_AT(nook_gl_pool_desc, struct_size, 0);
+NOOK_AT(nook_gl_pool_desc, places, 4);
+NOOK_AT(nook_gl_pool_desc, distance, 8);
+NOOK_AT(nook_gl_pool_desc, instance_count, 12);
+
+NOOK_SIZE(nook_gl_pool_view, 24);
+NOOK_AT(nook_gl_pool_view, offset, 0);
+NOOK_AT(nook_gl_pool_view, buffer, 8);
+NOOK_AT(nook_gl_pool_view, count, 12);
+NOOK_AT(nook_gl_pool_view, generation, 16);
+NOOK_AT(nook_gl_pool_view, is_near, 20);
+
+NOOK_SIZE(nook_gl_pool_info, 12);
+NOOK_AT(nook_gl_pool_info, struct_size, 0);
+NOOK_AT(nook_gl_pool_info, near_count, 4);
+NOOK_AT(nook_gl_pool_info, waiting_count, 8);
+
 NOOK_SIZE(nook_gl_memory, 32);
 NOOK_AT(nook_gl_memory, struct_size, 0);
 NOOK_AT(nook_gl_memory, reserved, 4);

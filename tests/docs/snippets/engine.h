@@ -3,6 +3,8 @@
 #include <nook/nook.hpp>
 #endif
 #include <nook/experimental/nook_capture.h>
+#include <nook/experimental/nook_clip_crowds.h>
+#include <nook/experimental/nook_gl_poses.h>
 #include <nook/experimental/nook_synthesis.h>
 #include <nook/experimental/nook_transfer.h>
 #include <nook/experimental/nook_world_sample.h>
@@ -48,7 +50,9 @@ extern nook_gl gl;
 extern void* get_proc(void* user, const char* name);
 extern const void* bytes;
 extern size_t size;
-extern nook_instance_id hero, horse, instance, id;
+extern nook_instance_id hero, horse, instance, id, ids[10000];
+extern nook_instance_clip crowd[10000];
+extern nook_gl_pool_view pool_views[10000];
 extern nook_occluder_id shield;
 extern float centre_ws[3], camera_position_ws[3], position_ws[3];
 extern float skinning_matrices[16], model_to_world[12], projection[16], view[16];

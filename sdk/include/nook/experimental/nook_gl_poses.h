@@ -100,6 +100,85 @@ NOOK_API nook_result nook_gl_scene_set_poses(nook_gl gl, nook_scene scene, const
 NOOK_API nook_result nook_gl_scene_read_pose(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                              float* bones_3x4, uint32_t bone_count);
 
+/* A pool for a crowd in which most instances are far away. Without a pool, each instance has arrays of its
+ * own, tens of kilobytes, even if nobody sees its AO. With a pool, only instances near the camera have them.
+ * Every other instance is far: its AO is 1, and it takes about 500 bytes of host memory and no OpenGL
+ * memory, if you give instance_count. If it plays a clip, your shader still multiplies by the clip's AO.
+ * Use nook_scene_set_clips, or nook_gl_scene_set_poses. An instance that nook_scene_set_pose or
+ * nook_scene_set_clip once posed keeps its bones on the CPU until you remove it, and these two calls allocate
+ * for the first pose of each instance.
+ *
+ * Who is near. nook_gl_scene_update gives a place to each instance that has a pose and whose sphere's centre
+ * lies within `distance` of the camera (nook_scene_set_camera; without a camera, all are near). The same
+ * update evaluates its AO. An instance leaves its place beyond 1.1 times the distance. If more instances of a
+ * model are near than it has places, the nearest ones get them, and the others stay far. An instance in a
+ * place counts as 1.1 times nearer, so that neighbours do not swap in each frame.
+ * For poses on the GPU, nook_gl_scene_set_poses gives the places, because later the pose may be overwritten.
+ * So set the camera before that call, and set the pose of an instance that comes near. If nook_gl lost the
+ * poses of such an instance, it is far until its next pose, and no call fails.
+ *
+ * Views. All far instances of a model share one buffer of ones. So the view of nook_gl_scene_view changes
+ * when an instance comes or goes, in nook_gl_scene_update and nook_gl_scene_set_poses.
+ * nook_gl_scene_read_pool tells you the views of many instances, with a generation that changes with the
+ * view. After nook_gl_scene_release, ask for all views again. nook_gl_scene_read and nook_gl_scene_write read
+ * ones for a far instance.
+ *
+ * What a far instance does not do. It darkens neither other instances nor the world in nook_world_render, and
+ * nook_scene_link_nearest does not find it. Links and the ground stay set for the time when it is near. If a
+ * near instance should get the shadow of each neighbour, choose the distance so much larger.
+ *
+ * Calls that need the bones of all instances on the CPU refuse a scene with a pool with
+ * NOOK_ERROR_UNSUPPORTED: nook_scene_update and nook_world_sample. So do nook_scene_set_light,
+ * nook_gl_scene_set_poses with NOOK_POSE_FLAG_PARTIAL, and a nook_gl without compute shaders. nook_scene_read
+ * (AO and bent normals), nook_scene_read_spheres, nook_scene_read_key_points, nook_scene_record_pose and
+ * nook_scene_set_model refuse an instance that has no bones on the CPU. */
+typedef struct nook_gl_pool_desc {
+  /* sizeof(nook_gl_pool_desc). */
+  uint32_t struct_size;
+  /* The number of places for the instances of each model, at least 1. For a model with fewer instances, Nook
+   * makes only as many places as it has instances. */
+  uint32_t places;
+  /* Instances within this distance of the camera are near: metres, above 0. */
+  float distance;
+  /* The number of instances that you will add, or 0. Nook reserves host memory for them, so that adding them
+   * does not leave room that nobody uses. */
+  uint32_t instance_count;
+} nook_gl_pool_desc;
+
+/* Gives a scene a pool. Call it before you add instances; while the scene has instances, only the distance
+ * may change. nook_gl_scene_prepare makes the places of the instances that you added, and then no update
+ * allocates. The pool belongs to the scene: each nook_gl that evaluates the scene has places for it. Context
+ * thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (gl has no compute shaders), OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_scene_set_pool(nook_gl gl, nook_scene scene, const nook_gl_pool_desc* desc);
+
+/* The view of one instance of a scene with a pool, as nook_gl_view. The stride is 4. */
+typedef struct nook_gl_pool_view {
+  uint64_t offset;
+  uint32_t buffer;
+  /* The model's file_vertex_count. */
+  uint32_t count;
+  /* Another number after each change of this view. */
+  uint32_t generation;
+  /* 1 in a place of the pool, 0 far. */
+  uint32_t is_near;
+} nook_gl_pool_view;
+
+/* How full a pool is. */
+typedef struct nook_gl_pool_info {
+  uint32_t struct_size;
+  /* Instances in a place. */
+  uint32_t near_count;
+  /* Instances that are near enough, but stay far because their model has no place left. */
+  uint32_t waiting_count;
+} nook_gl_pool_info;
+
+/* Tells the views of `count` instances, and how full the pool was at the last update. `info` may be NULL. It
+ * makes no OpenGL call and does not allocate. Context thread. Errors: INVALID_ARGUMENT (also: the scene has
+ * no pool), INVALID_HANDLE (an id is unknown, an instance is not prepared yet), GL. */
+NOOK_API nook_result nook_gl_scene_read_pool(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
+                                             uint32_t count, nook_gl_pool_view* views,
+                                             nook_gl_pool_info* info);
+
 #ifdef __cplusplus
 }
 #endif

@@ -1,4 +1,5 @@
-// C++17 wrapper of poses on the GPU: nook_gl_poses.h. Call both functions on the context thread.
+// C++17 wrapper of poses on the GPU and of the pool of a scene: nook_gl_poses.h. The functions belong to the
+// context thread.
 #ifndef NOOK_GL_POSES_HPP
 #define NOOK_GL_POSES_HPP
 
@@ -25,6 +26,29 @@ inline std::vector<float> read_pose(const Gl& gl, const Scene& scene, nook_insta
   std::vector<float> bones(std::size_t{12} * bone_count);
   check(nook_gl_scene_read_pose(gl.get(), scene.get(), instance, bones.data(), bone_count));
   return bones;
+}
+
+// Gives a scene a pool; struct_size is set here.
+inline void set_pool(const Gl& gl, Scene& scene, nook_gl_pool_desc desc) {
+  desc.struct_size = sizeof desc;
+  check(nook_gl_scene_set_pool(gl.get(), scene.get(), &desc));
+}
+
+// Returns the views of instances.
+inline std::vector<nook_gl_pool_view> read_pool(const Gl& gl, const Scene& scene,
+                                                const std::vector<nook_instance_id>& instances) {
+  std::vector<nook_gl_pool_view> views(instances.size());
+  check(nook_gl_scene_read_pool(gl.get(), scene.get(), instances.data(),
+                                static_cast<std::uint32_t>(instances.size()), views.data(), nullptr));
+  return views;
+}
+
+// Returns how full the pool was at the last update.
+inline nook_gl_pool_info pool_info(const Gl& gl, const Scene& scene) {
+  nook_gl_pool_info info{};
+  info.struct_size = sizeof info;
+  check(nook_gl_scene_read_pool(gl.get(), scene.get(), nullptr, 0, nullptr, &info));
+  return info;
 }
 
 }  // namespace wrapper

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "sdk/src/character/scene_pool.h"
+
 namespace nook::gl {
 
 CharacterGl::CharacterGl(Device& device) : scenes_(device.memory), output_(device) {
@@ -17,7 +19,11 @@ void CharacterGl::prepare(const SceneHandle& handle) {
   if (std::none_of(scenes_.begin(), scenes_.end(), known)) scenes_.push_back(handle);
   const bool computes = std::holds_alternative<ComputeTier>(storage_);
   // The other tier updates key points on the CPU.
-  if (!computes) make_arrays(*handle.scene);
+  if (!computes) {
+    need_no_pool(*handle.scene, "this OpenGL has no compute shaders; use a scene without a pool");
+    make_arrays(*handle.scene);
+  }
+  reserve_parts(*handle.scene);
   tier_->prepare(*handle.scene);
   // The arrays are released only after the preparation has succeeded. If it fails, the host can still update
   // on the CPU without an allocation.

@@ -33,6 +33,10 @@ class CharacterGl {
   void set_poses(const SceneHandle& handle, const PoseBatch& batch);
   void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const;
   VertexValues place(const Scene& scene, nook_instance_id instance) const;
+  PooledView pooled_view(const Scene& scene, nook_instance_id instance) const {
+    return tier_->pooled_view(scene, instance);
+  }
+  PoolCount pool_count(const Scene& scene) const { return tier_->pool_count(scene); }
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const;
   void read(const VertexValues& values, float* out) const;
   // Copies AO to the host's own buffers and textures. The caller must hold a StateGuard for output_users.

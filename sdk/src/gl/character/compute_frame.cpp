@@ -91,10 +91,10 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
       frame.late += instance.input.clip.is_late;
       if (!instance.plan.due) return;
       ++frame.due;
-      frame.lit += instance.light.count > 0;
+      frame.lit += instance.light().count > 0;
       ++frame.due_at_level[instance.plan.level];
       casters += NOOK_CASTER_UVEC4S * instance.plan.casters.size() + free_sphere_count(instance);
-      lights += light_texels(instance.light);
+      lights += light_texels(instance.light());
     });
     if (frame.selected == 0) continue;
     lay_out_piece(device, chunk, casters, lights);
@@ -106,7 +106,7 @@ std::uint64_t lay_out(const Device& device, ComputeScene& placed) {
 
 void write_pose(const Instance& instance, Mat3x4* out) {
   const Vec3 from = origin(instance);
-  for (const Mat3x4& bone : instance.input.bones) {
+  for (const Mat3x4& bone : instance.bones()) {
     Mat3x4 relative = bone;
     relative.m[3] -= from.x;
     relative.m[7] -= from.y;
@@ -176,10 +176,10 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
       record.place |= placed.number_of_clips(instance) << NOOK_RECORD_CLIPS_SHIFT;
     if (instance.plan.due) {
       write_casters(placed, instance, piece, next_caster, record);
-      if (instance.light.count > 0) {
+      if (instance.light().count > 0) {
         record.light = next_light;
         write_light(instance, reinterpret_cast<LightTexel*>(piece + next_light));
-        next_light += light_texels(instance.light);
+        next_light += light_texels(instance.light());
       }
     }
     // If the pose is on the GPU, pose_place.comp writes the bones later.

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "sdk/src/character/scene_clips.h"
+#include "sdk/src/character/scene_pool.h"
 #include "sdk/src/core/affine.h"
 #include "sdk/src/core/floats.h"
 #include "sdk/src/gl/character/compute_tier.h"
@@ -50,7 +51,7 @@ void check_place(const ComputeScene& placed, const PoseBatch& batch, const Insta
                   "for each model",
                   index, instance.id);
   const Placement<ComputeChunk>& placement = placed.placements[slot_of(*placed.scene, instance)];
-  if (placement.chunk->pose_call[placement.place] == placed.pose_calls)
+  if (placement.pose_call == placed.pose_calls)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "instances[%zu] (instance %u) occurs twice in a call", index,
                   instance.id);
   if (batch.source.is_partial && instance.input.is_posed_on_gpu &&
@@ -61,20 +62,41 @@ void check_place(const ComputeScene& placed, const PoseBatch& batch, const Insta
                   instance.id);
 }
 
-// Checks all instances, and counts the instances of each chunk. Throws Failure if the pose of an instance
-// cannot be set.
-void count_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batch) {
+// Checks all instances. Throws Failure if one cannot get a pose.
+void check_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batch) {
+  if (batch.source.is_partial)
+    need_no_pool(scene,
+                 "poses with NOOK_POSE_FLAG_PARTIAL need the other bones of far instances; set all bones");
   ++placed.pose_calls;
-  for (ComputeChunk& chunk : placed.chunks) chunk.poses = {};
   const Instance& first = instance_of(scene, batch.instances[0].instance);
   for (std::size_t i = 0; i < batch.instances.size(); ++i) {
     check_instance_pose(batch, i);
     const Instance& instance = instance_of(scene, batch.instances[i].instance);
     check_place(placed, batch, instance, first, i);
-    Placement<ComputeChunk>& placement = placed.placements[slot_of(scene, instance)];
-    placement.chunk->pose_call[placement.place] = placed.pose_calls;
-    ++placement.chunk->poses.count;
-    placement.chunk->poses.seeds += needs_seed(batch, instance);
+    placed.placements[slot_of(scene, instance)].pose_call = placed.pose_calls;
+  }
+}
+
+// Lets the instances of the call compete for the places of a pool, where their new poses are. Those that get
+// none leave their pose in the host's buffer.
+void assign_places(Scene& scene, ComputeScene& placed, const PoseBatch& batch) noexcept {
+  placed.measure();
+  if (scene.has_camera)
+    for (const nook_gl_instance_pose& pose : batch.instances)
+      placed.placements[slot_of(scene, instance_of(scene, pose.instance))].distance =
+          length(centre_of(pose) - scene.camera);
+  placed.assign(scene, placed.pose_calls);
+}
+
+// Counts the instances of each chunk.
+void count_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batch) noexcept {
+  for (ComputeChunk& chunk : placed.chunks) chunk.poses = {};
+  for (const nook_gl_instance_pose& pose : batch.instances) {
+    const Instance& instance = instance_of(scene, pose.instance);
+    ComputeChunk* const chunk = placed.placements[slot_of(scene, instance)].chunk;
+    if (!chunk) continue;
+    ++chunk->poses.count;
+    chunk->poses.seeds += needs_seed(batch, instance);
   }
 }
 
@@ -124,7 +146,7 @@ void write_bind(const CharacterModel& model, const PoseSource& source, Word4* pi
 // Writes the bones of a pose that is on the CPU. They are relative to the origin that belongs to that pose.
 void write_seed(const Instance& instance, Word4* at) {
   const Vec3 from = instance.input.bound.centre;
-  for (const Mat3x4& bone : instance.input.bones) {
+  for (const Mat3x4& bone : instance.bones()) {
     Mat3x4 relative = bone;
     relative.m[3] -= from.x;
     relative.m[7] -= from.y;
@@ -163,6 +185,7 @@ void write_jobs(const Scene& scene, ComputeScene& placed, const PoseBatch& batch
   for (const nook_gl_instance_pose& pose : batch.instances) {
     const Instance& instance = instance_of(scene, pose.instance);
     const Placement<ComputeChunk>& placement = placed.placements[slot_of(scene, instance)];
+    if (!placement.chunk) continue;
     ComputeChunk::PoseFrame& frame = placement.chunk->poses;
     Word4* const piece = piece_of(*placement.chunk);
     std::uint32_t seed = 0;
@@ -181,7 +204,7 @@ void take_poses(Scene& scene, ComputeScene& placed, const PoseBatch& batch) noex
     Instance& instance = instance_of(scene, pose.instance);
     take_gpu_pose(scene, instance, {{centre_of(pose), pose.bound_radius}, pose.scale});
     const Placement<ComputeChunk>& placement = placed.placements[slot_of(scene, instance)];
-    placement.chunk->posed_of[placement.place] = pose_of(instance);
+    if (placement.chunk) placement.chunk->posed_of[placement.place] = pose_of(instance);
   }
 }
 
@@ -189,7 +212,11 @@ void take_poses(Scene& scene, ComputeScene& placed, const PoseBatch& batch) noex
 
 // Creates the programs and buffers that do not exist yet. Throws Failure if this is not possible.
 void ComputeTier::make_pose_objects(ComputeScene& placed) {
-  const auto is_missing = [](const ComputeChunk& chunk) { return chunk.poses.count && !chunk.posed.name(); };
+  // In a pool, instances change their chunks, so each chunk gets its buffer at once.
+  const bool has_pool = placed.scene->pool.is_used();
+  const auto is_missing = [&](const ComputeChunk& chunk) {
+    return (chunk.poses.count || has_pool) && !chunk.posed.name();
+  };
   if (convert_poses_.name() && place_poses_.name() && placed.jobs.name() &&
       std::none_of(placed.chunks.begin(), placed.chunks.end(), is_missing))
     return;
@@ -207,16 +234,20 @@ void ComputeTier::make_pose_objects(ComputeScene& placed) {
 void ComputeTier::set_poses(Scene& scene, const PoseBatch& batch) {
   ComputeScene& placed = *placed_scene(scenes_, scene);
   const PoseWindows windows(device_, batch);
+  check_poses(scene, placed, batch);
+  assign_places(scene, placed, batch);
   count_poses(scene, placed, batch);
   if (batch.source.is_partial)
     for (const nook_gl_instance_pose& pose : batch.instances)
       decode_late_bones(instance_of(scene, pose.instance));
   make_pose_objects(placed);
-  placed.jobs.write(lay_out_jobs(device_, placed), [&](void* memory) {
-    write_jobs(scene, placed, batch, windows, static_cast<std::byte*>(memory));
-  });
+  const std::uint64_t bytes = lay_out_jobs(device_, placed);
+  if (bytes > 0)
+    placed.jobs.write(bytes, [&](void* memory) {
+      write_jobs(scene, placed, batch, windows, static_cast<std::byte*>(memory));
+    });
   take_poses(scene, placed, batch);
-  convert_poses(placed, batch, windows);
+  if (bytes > 0) convert_poses(placed, batch, windows);
 }
 
 void ComputeTier::convert_poses(const ComputeScene& placed, const PoseBatch& batch,

@@ -139,17 +139,18 @@ ComputeChunk::ComputeChunk(Device& device, ComputeModel& for_model, std::uint32_
       shadows(device, "nook: shadows", std::uint64_t{capacity} * for_model.shadows() * 2 * sizeof(float),
               nullptr, GL_DYNAMIC_COPY),
       transformed(capacity, device.memory),
-      posed_of(capacity, device.memory),
-      pose_call(capacity, 0, device.memory) {}
+      posed_of(capacity, device.memory) {}
 
 ComputeScene::ComputeScene(Device& device, const Scene& of)
     : PlacedScene(of, device.memory),
       stream(device, "nook: poses and casters", 4096, nullptr, GL_STREAM_DRAW),
-      clips(device.memory) {}
+      clips(device.memory),
+      candidates_(device.memory) {}
 
 void ComputeScene::make_buffers(Device& device) {
   make_sphere_buffers(device);
   make_light_buffers(device);
+  make_pool(device);
 }
 
 // One buffer holds the world-space spheres of all chunks, because any instance may be a caster of any other

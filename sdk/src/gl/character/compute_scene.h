@@ -60,8 +60,8 @@ struct ComputeModel : ModelData {
   Buffer spheres_rest;
   Buffer key_points_rest;
   Buffer linear;
-  Buffer spread;  // for coarser levels: how to compute all key points from the evaluated ones; no buffer if
-                  // the model has no coarser levels
+  Buffer spread;   // spreads coarser levels' evaluated key points to all; none without such levels
+  Buffer open_ao;  // the view of far instances: each vertex has AO 1; none without a pool
 };
 
 // Returns the sizes of the buffers of a model and of its instances.
@@ -102,10 +102,7 @@ struct ComputeChunk : ChunkData {
     std::uint64_t offset = 0, bytes = 0;  // range of the piece in the buffer
     std::uint32_t next_job = 0, next_seed = 0;
   } poses;
-  // For each place, the last call of set_poses that included its instance.
-  Vector<std::uint64_t> pose_call;
-
-  // The input of the current update, which the CPU sends.
+  // The CPU's inputs of the current update.
   struct Frame {
     // The records of evaluated instances come first, level by level. For the other instances, only the
     // spheres are computed.
@@ -134,15 +131,41 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   // (InstanceClip::is_late).
   std::uint32_t number_of_clips(const Instance& instance) const;
 
-  Buffer stream;  // the data that one update sends, with a piece for each chunk
-  Buffer jobs;    // the data that one call of set_poses sends, with a piece for each chunk; created in the
-                  // first call
-  std::uint64_t pose_calls = 0;
-  Buffer spheres;  // the spheres of all places of all chunks
+  Buffer stream;  // what one update sends, a piece for each chunk
+  Buffer jobs;    // what one call of set_poses sends, a piece for each chunk; none before the first one
+  std::uint32_t pose_calls = 0;
+  Buffer spheres;  // of every place of every chunk
   List<PlacedClips> clips;
 
+  // The pool of the scene (compute_pool.cpp). All do nothing without a pool.
+
+  // Makes what assigning needs, so that it does not allocate. Throws Failure.
+  void make_pool(Device& device);
+  // Measures how far each instance is from the camera.
+  void measure() noexcept;
+  // Gives places to the nearest instances, and takes them from others. `call` is the call of set_poses that
+  // is about to bring poses to the GPU, or 0. Only then an instance with its pose on the GPU can get a place,
+  // because later the pose is nowhere.
+  void assign(Scene& scene_to_change, std::uint32_t call) noexcept;
+  // New instances of the pool have their AO now.
+  void finish_assigned(Scene& scene_to_change) noexcept;
+  PooledView pooled_view(nook_instance_id instance) const;
+  PoolCount pool_count;
+
  private:
-  // The revisions of the scene at the last place_clips.
+  // An instance that is near enough for a place.
+  struct Candidate {
+    const LoadedModel* model;
+    float distance;
+    std::uint32_t slot;
+  };
+  void choose(std::uint32_t call) noexcept;
+  bool may_be_near(std::uint32_t slot, std::uint32_t call) const noexcept;
+  void leave(Scene& scene_to_change, std::uint32_t slot) noexcept;
+  void enter(Scene& scene_to_change, std::uint32_t slot) noexcept;
+  Vector<Candidate> candidates_;
+
+  // Of the scene, when the clips were placed.
   std::uint64_t clips_revision_ = 0, clips_structure_ = 0;
   void make_sphere_buffers(Device& device);
   void make_light_buffers(Device& device);

@@ -26,12 +26,14 @@ struct OutputDefine {
 // Decides which instances are due. If the update fails later, the next update evaluates these instances.
 void decide(ComputeScene& placed, Scene& scene) {
   placed.notice_lights();
+  placed.measure();
+  placed.assign(scene, 0);
   ++scene.frame;
   resolve_casters(scene, [&](std::uint32_t slot) { return placed.placements[slot].evaluated; });
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
     if (scene.instances[slot].plan.due) placed.placements[slot].evaluated = false;
   for (Instance& instance : scene.instances)
-    if (instance.light.count > 0 && instance.plan.due) prepare_light(scene, instance);
+    if (instance.light().count > 0 && instance.plan.due) prepare_light(scene, instance);
 }
 
 std::uint64_t count_evaluations(const ComputeScene& placed, const Scene& scene, std::uint32_t slot) {
@@ -62,7 +64,7 @@ void remember_update(ComputeScene& placed, const Scene& scene) {
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot) {
     const Instance& instance = scene.instances[slot];
     Placement<ComputeChunk>& placement = placed.placements[slot];
-    if (instance.id == 0) continue;
+    if (instance.id == 0 || !placement.chunk) continue;
     placement.evaluated |= instance.plan.due;
     placement.chunk->transformed[placement.place] = pose_of(instance);
   }
@@ -120,13 +122,25 @@ void ComputeTier::update(Scene& scene) {
   placed.lights.upload(device_, scene);
   if (upload_frame(device_, placed)) run({placed, scene.settings.form == NOOK_FORM_DEFAULT});
   remember_update(placed, scene);
+  placed.finish_assigned(scene);
   count_update(placed, scene);
 }
 
 VertexValues ComputeTier::place(const Scene& scene, nook_instance_id instance) const {
   const ComputeScene* placed = placed_scene(scenes_, scene);
   if (!placed) fail_without_place(instance);
-  return placed->place(instance);
+  return scene.pool.is_used() ? placed->pooled_view(instance).values : placed->place(instance);
+}
+
+PooledView ComputeTier::pooled_view(const Scene& scene, nook_instance_id instance) const {
+  const ComputeScene* placed = placed_scene(scenes_, scene);
+  if (!placed) fail_without_place(instance);
+  return placed->pooled_view(instance);
+}
+
+PoolCount ComputeTier::pool_count(const Scene& scene) const {
+  const ComputeScene* placed = placed_scene(scenes_, scene);
+  return placed ? placed->pool_count : PoolCount{};
 }
 
 LightPlace ComputeTier::light_place(const Scene& scene, nook_instance_id instance) const {

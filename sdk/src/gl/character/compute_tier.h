@@ -17,6 +17,8 @@ class ComputeTier final : public Tier {
   void set_poses(Scene& scene, const PoseBatch& batch) override;
   void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const override;
   VertexValues place(const Scene& scene, nook_instance_id instance) const override;
+  PooledView pooled_view(const Scene& scene, nook_instance_id instance) const override;
+  PoolCount pool_count(const Scene& scene) const override;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const override;
   void read(const VertexValues& values, float* out) const override;
   ModelMemory memory_of(const LoadedModel& model) const override;

@@ -17,7 +17,7 @@ static_assert(CharacterModel::max_influences <= 8,
 struct Shadows {
   static constexpr std::uint32_t floats = 2, texels = 1;
   static void write(const Scene& scene, const Instance& instance, float* out) {
-    const PointLanes& points = instance.result.arrays.points;
+    const PointLanes& points = instance.arrays().points;
     const bool composed = scene.settings.form == NOOK_FORM_DEFAULT;
     for (std::uint32_t k = 0; k < points.count; ++k) {
       *out++ = points.shadow[k];
@@ -31,8 +31,8 @@ struct Shadows {
 struct Colours {
   static constexpr std::uint32_t floats = 8, texels = NOOK_COLOUR_VEC4S;
   static void write(const Scene& scene, const Instance& instance, float* out) {
-    const PointLanes& points = instance.result.arrays.points;
-    const InstanceLight& light = instance.light;
+    const PointLanes& points = instance.arrays().points;
+    const InstanceLight& light = instance.light();
     const bool composed = scene.settings.form == NOOK_FORM_DEFAULT;
     for (std::uint32_t k = 0; k < points.count; ++k, out += floats) {
       for (int c = 0; c < 3; ++c) {
@@ -139,6 +139,15 @@ VertexValues FeedbackTier::place(const Scene& scene, nook_instance_id instance) 
   const FeedbackScene* placed = placed_scene(scenes_, scene);
   if (!placed) fail_without_place(instance);
   return placed->place(instance);
+}
+
+// prepare refuses a scene with a pool.
+PooledView FeedbackTier::pooled_view(const Scene&, nook_instance_id instance) const {
+  fail_without_place(instance);
+}
+
+PoolCount FeedbackTier::pool_count(const Scene&) const {
+  return {};
 }
 
 LightPlace FeedbackTier::light_place(const Scene& scene, nook_instance_id instance) const {

@@ -21,7 +21,7 @@ std::uint32_t light_texels(const InstanceLight& light) {
 
 // Writes a light in the layout of light_layout.h.
 void write_light(const Instance& instance, LightTexel* out) {
-  const InstanceLight& light = instance.light;
+  const InstanceLight& light = instance.light();
   const LightBands& bands = light.bands;
   out[NOOK_LIGHT_HEAD] = {float(light.count), instance.input.ground.normal.x, instance.input.ground.normal.y,
                           instance.input.ground.normal.z};
@@ -48,7 +48,7 @@ void LightTexture::make(Device& device) {
 void LightTexture::upload(Device& device, const Scene& scene) {
   std::fill(first_texels_.begin(), first_texels_.end(), no_light);
   std::uint64_t texels = 0;
-  for (const Instance& instance : scene.instances) texels += light_texels(instance.light);
+  for (const Instance& instance : scene.instances) texels += light_texels(instance.light());
   if (texels == 0) return;
   if (texels > device.max_texels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
@@ -59,10 +59,10 @@ void LightTexture::upload(Device& device, const Scene& scene) {
     std::uint32_t next = 0;
     for (std::size_t slot = 0; slot < scene.instances.size(); ++slot) {
       const Instance& instance = scene.instances[slot];
-      if (instance.light.count == 0) continue;
+      if (instance.light().count == 0) continue;
       first_texels_[slot] = next;
       write_light(instance, static_cast<LightTexel*>(memory) + next);
-      next += light_texels(instance.light);
+      next += light_texels(instance.light());
     }
   });
 }

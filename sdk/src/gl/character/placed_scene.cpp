@@ -19,15 +19,14 @@ namespace {
 // The number of groups that OpenGL guarantees in each dimension of a dispatch.
 constexpr std::uint64_t max_groups = 65535;
 
-// Creates a buffer for AO. Until the first update, its AO is 1, which means fully open.
+}  // namespace
+
 Buffer open_buffer(Device& device, const char* label, std::uint64_t floats) {
   const std::uint64_t bytes = floats * sizeof(float);
   Buffer buffer(device, label, bytes, nullptr, GL_DYNAMIC_COPY, BufferUse::ao);
   buffer.write(bytes, [&](void* memory) { std::fill_n(static_cast<float*>(memory), floats, 1.0f); });
   return buffer;
 }
-
-}  // namespace
 
 ChunkData::ChunkData(Device& device, ModelData& model, std::uint32_t instance_capacity)
     : data(model),
@@ -44,7 +43,7 @@ void ChunkData::make_directional_ao(Device& device) {
 
 bool ChunkData::has_light(const Scene& scene) const {
   return std::any_of(slots.begin(), slots.end(), [&](std::uint32_t slot) {
-    return slot != empty && scene.instances[slot].light.lobes.size() > 0;
+    return slot != empty && scene.instances[slot].light().lobes.size() > 0;
   });
 }
 

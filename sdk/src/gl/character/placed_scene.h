@@ -9,6 +9,7 @@
 
 #include "sdk/src/character/loaded_model.h"
 #include "sdk/src/character/scene.h"
+#include "sdk/src/character/scene_pool.h"
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/failure.h"
 #include "sdk/src/gl/character/light_texture.h"
@@ -82,18 +83,27 @@ struct ChunkData {
   Buffer directional_ao;         // capacity * file vertices * 3 floats; created for the first light
 };
 
-// Returns how many instances fit into one chunk if each takes at most `share` bytes of a buffer. Throws
-// Failure if not even one instance fits.
+// Creates a buffer for AO. Until the first update, its AO is 1, which means fully open. Throws Failure.
+Buffer open_buffer(Device& device, const char* label, std::uint64_t floats);
+
+// Returns how many instances fit in one chunk if each takes at most `share` bytes of a buffer. Throws Failure
+// if none fits.
 std::uint32_t max_in_chunk(const Device& device, std::uint64_t share);
 
 // The chunk and place of an instance of the scene. Arrays of placements are indexed by the scene's slot.
 template <class Chunk>
 struct Placement {
   nook_instance_id id = 0;
-  Chunk* chunk = nullptr;
   std::uint32_t place = 0;
-  bool evaluated = false;  // true if an update has computed the AO that is in the chunk
-  bool lit = false;        // true if the instance had a light in the last update
+  Chunk* chunk = nullptr;  // null: in the far form of a pool
+  bool evaluated = false;  // the AO in the chunk comes from an update
+  bool lit = false;        // the last update saw a light
+  // Only in a scene with a pool (compute_pool.cpp).
+  bool is_chosen = false;        // for a place in this update
+  bool is_new = false;           // in its place, which still has the AO of another instance
+  float distance = 0;            // from the camera
+  std::uint32_t generation = 0;  // of the view
+  std::uint32_t pose_call = 0;   // the last call of set_poses that named the instance
 };
 
 // Copies values to `out`, and waits for the GPU. Throws Failure.
@@ -120,8 +130,11 @@ class PlacedScene {
     vacate_removed();
     placements.resize(scene->instances.size());
     lights.resize(scene->instances.size());
-    for (std::uint32_t slot = 0; slot < scene->instances.size(); ++slot)
-      if (scene->instances[slot].id && !placements[slot].id) place_new(device, models, slot);
+    if (scene->pool.is_used())
+      place_far(device, models);
+    else
+      for (std::uint32_t slot = 0; slot < scene->instances.size(); ++slot)
+        if (scene->instances[slot].id && !placements[slot].id) place_new(device, models, slot);
     drop_unused(models);
   }
   // Call it after all other steps of the preparation.
@@ -134,7 +147,7 @@ class PlacedScene {
   // are due.
   void notice_lights() noexcept {
     for (std::size_t slot = 0; slot < placements.size(); ++slot) {
-      const bool lit = scene->instances[slot].light.count > 0;
+      const bool lit = scene->instances[slot].light().count > 0;
       if (lit && !placements[slot].lit) placements[slot].evaluated = false;
       placements[slot].lit = lit;
     }
@@ -159,13 +172,25 @@ class PlacedScene {
   Vector<Placement<Chunk>> placements;
   LightTexture lights;
 
- private:
+ protected:
+  // Puts the instance in `slot` into a chunk that has room.
+  void take_place(Chunk& chunk, std::uint32_t slot) noexcept {
+    while (chunk.slots[chunk.first_free] != Chunk::empty) ++chunk.first_free;
+    placements[slot].chunk = &chunk;
+    placements[slot].place = chunk.first_free++;
+    chunk.slots[placements[slot].place] = slot;
+    ++chunk.living;
+  }
+  void leave_place(Placement<Chunk>& placement) noexcept {
+    Chunk& chunk = *placement.chunk;
+    chunk.slots[placement.place] = Chunk::empty;
+    chunk.first_free = std::min(chunk.first_free, placement.place);
+    --chunk.living;
+    placement.chunk = nullptr;
+  }
   const Placement<Chunk>* find(nook_instance_id instance) const {
     const auto slot = static_cast<std::size_t>(&instance_of(*scene, instance) - scene->instances.data());
     return slot < placements.size() && placements[slot].id == instance ? &placements[slot] : nullptr;
-  }
-  std::size_t slot_of(const Placement<Chunk>& placement) const {
-    return static_cast<std::size_t>(&placement - placements.data());
   }
   static VertexValues values(const Buffer& buffer, const Placement<Chunk>& placement,
                              std::uint32_t channels) {
@@ -174,29 +199,55 @@ class PlacedScene {
     return values;
   }
 
+ private:
+  std::size_t slot_of(const Placement<Chunk>& placement) const {
+    return static_cast<std::size_t>(&placement - placements.data());
+  }
+
   void vacate_removed() {
     for (std::size_t slot = 0; slot < placements.size(); ++slot) {
+      const Chunk* const chunk = placements[slot].chunk;
       const bool same = slot < scene->instances.size() && scene->instances[slot].id == placements[slot].id &&
-                        (!placements[slot].id ||
-                         scene->instances[slot].model.get() == placements[slot].chunk->model->model.get());
+                        (!chunk || scene->instances[slot].model.get() == chunk->model->model.get());
       if (placements[slot].id && !same) vacate(placements[slot]);
     }
   }
   void vacate(Placement<Chunk>& placement) {
-    Chunk& chunk = *placement.chunk;
-    chunk.slots[placement.place] = Chunk::empty;
-    chunk.first_free = std::min(chunk.first_free, placement.place);
-    --chunk.living;
+    Chunk* const chunk = placement.chunk;
+    if (chunk) leave_place(placement);
     placement = {};
-    if (chunk.living == 0) chunks.remove_if([&](const Chunk& c) { return &c == &chunk; });
+    if (chunk && chunk->living == 0 && !scene->pool.is_used())
+      chunks.remove_if([&](const Chunk& c) { return &c == chunk; });
   }
 
   void place_new(Device& device, List<Model>& models, std::uint32_t slot) {
     Chunk& chunk = chunk_with_room(device, models, scene->instances[slot].model);
-    while (chunk.slots[chunk.first_free] != Chunk::empty) ++chunk.first_free;
-    placements[slot] = {scene->instances[slot].id, &chunk, chunk.first_free++};
-    chunk.slots[placements[slot].place] = slot;
-    ++chunk.living;
+    placements[slot] = {};
+    placements[slot].id = scene->instances[slot].id;
+    take_place(chunk, slot);
+  }
+  // Makes room for the near instances of each model. New instances begin in the far form.
+  void place_far(Device& device, List<Model>& models) {
+    const Vector<PoolShare> shares = pool_shares(*scene, device.memory);
+    chunks.remove_if([&](const Chunk& chunk) {
+      return std::none_of(shares.begin(), shares.end(), [&](const PoolShare& share) {
+        return share.model.get() == chunk.model->model.get();
+      });
+    });
+    for (const PoolShare& share : shares) {
+      std::uint32_t room = 0;
+      for (const Chunk& chunk : chunks)
+        if (chunk.model->model.get() == share.model.get()) room += chunk.capacity;
+      if (room >= share.places) continue;
+      Model& shared = model_data(device, models, share.model);
+      // Where instances are added one by one, the room grows by half.
+      const std::uint32_t wanted = std::min(std::max(share.places, room + room / 2), scene->pool.places);
+      const std::uint32_t most = max_in_chunk(device, shared.largest_share());
+      for (; room < wanted; room += chunks.back().capacity)
+        chunks.emplace_back(device, shared, std::min(wanted - room, most));
+    }
+    for (std::uint32_t slot = 0; slot < scene->instances.size(); ++slot)
+      placements[slot].id = scene->instances[slot].id;
   }
   // Returns a chunk of the model that has a free place. If there is none, creates a chunk for all instances
   // of the model that have no place yet. If the model already has chunks, the new chunk is larger, so that

@@ -19,6 +19,19 @@ struct VertexValues {
   std::uint64_t bytes() const { return std::uint64_t{vertices} * channels * sizeof(float); }
 };
 
+// The view of an instance in a scene with a pool.
+struct PooledView {
+  VertexValues values;
+  std::uint32_t generation = 0;  // another number after each change of `values`
+  bool is_near = false;
+};
+
+// What the last assignment of a pool's places found.
+struct PoolCount {
+  std::uint32_t near = 0;     // instances in a place
+  std::uint32_t waiting = 0;  // instances that are near enough, but found the pool full
+};
+
 struct LightPlace {
   VertexValues directional_ao;
   GLuint texture = 0;  // the texture that contains the lights
@@ -56,8 +69,10 @@ class Tier {
 
   // Returns where the AO of an instance is. Throws Failure if the instance has no place.
   virtual VertexValues place(const Scene& scene, nook_instance_id instance) const = 0;
-  // Returns where the light of an instance is. Throws Failure if the instance had no light in the last
-  // update.
+  // The same for a scene with a pool.
+  virtual PooledView pooled_view(const Scene& scene, nook_instance_id instance) const = 0;
+  virtual PoolCount pool_count(const Scene& scene) const = 0;
+  // Throws Failure unless the last update saw a light on the instance.
   virtual LightPlace light_place(const Scene& scene, nook_instance_id instance) const = 0;
 
   // Copies values to `out`, and waits for the GPU. Throws Failure.

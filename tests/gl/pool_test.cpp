@@ -1,0 +1,634 @@
+// The pool of a scene: near instances have the AO of a scene without a pool, to the bit, and far ones have
+// AO 1 and hardly any memory.
+#include <nook/experimental/nook_clip_crowds.h>
+#include <nook/experimental/nook_world_sample.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <functional>
+#include <tuple>
+
+#include "platform/file_bytes.h"
+#include "sdk/src/character/clip_set.h"
+#include "sdk/src/character/model_file.h"
+#include "tests/character/clip_sample.h"
+#include "tests/gl/gpu_poses.h"
+#include "tests/gl/poison.h"
+#include "tests/gl/traced_loader.h"
+
+using namespace nook;
+using namespace nook::test;
+
+namespace {
+
+using Clips = std::vector<nook_instance_clip>;
+
+// A character with clips, and a nook_gl.
+struct Stage {
+  explicit Stage(platform::Context& of, nook_gl_state_mode mode = NOOK_GL_STATE_PRESERVE,
+                 nook_gl_proc_fn loader = platform::Context::loader, void* user = nullptr,
+                 const CharacterModel& character = sample_model(31))
+      : model(load_model(host.handle, character)),
+        gl(create_gl(host.handle, loader, user ? user : &of, 0, mode)),
+        bones(static_cast<std::uint32_t>(character.bone_count())) {
+    const std::vector<std::byte> bytes = write_clip_set(sample_clips(character).set);
+    NOOK_OK_OR_FAIL(nook_clips_load(host.handle, model, bytes.data(), bytes.size(), &clips));
+  }
+  ~Stage() {
+    nook_gl_destroy(&gl);
+    nook_clips_destroy(&clips);
+    nook_model_destroy(&model);
+  }
+  Stage(const Stage&) = delete;
+  Stage& operator=(const Stage&) = delete;
+
+  CountedContext host;
+  nook_model model;
+  nook_gl gl;
+  nook_clips clips = nullptr;
+  std::uint32_t bones;
+};
+
+struct PoolOptions {
+  std::uint32_t places = 0;  // 0: without a pool
+  float distance = 10;
+  std::uint32_t nearest = 0, reserved = 0;
+  float cutoff_error = 0, lod_error = 0;
+};
+
+nook_result set_pool(nook_gl gl, nook_scene scene, std::uint32_t places, float distance,
+                     std::uint32_t reserved = 0) {
+  const nook_gl_pool_desc desc{sizeof desc, places, distance, reserved};
+  return nook_gl_scene_set_pool(gl, scene, &desc);
+}
+
+// A crowd whose camera stands at the origin.
+struct PooledCrowd {
+  PooledCrowd(const Stage& on, std::size_t instances, const PoolOptions& options) : stage(on) {
+    nook_scene_desc desc;
+    NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc));
+    desc.cutoff_error = options.cutoff_error;
+    desc.far_error = 0;
+    desc.lod_error = options.lod_error;
+    desc.lod_distance = 1;
+    NOOK_OK_OR_FAIL(nook_scene_create(stage.host.handle, &desc, &scene));
+    if (options.places)
+      NOOK_OK_OR_FAIL(set_pool(stage.gl, scene, options.places, options.distance, options.reserved));
+    look_from({});
+    for (std::size_t i = 0; i < instances; ++i) add();
+    if (options.nearest) NOOK_OK_OR_FAIL(nook_scene_link_nearest(scene, options.nearest, 3));
+  }
+  ~PooledCrowd() { nook_scene_destroy(&scene); }
+  PooledCrowd(const PooledCrowd&) = delete;
+  PooledCrowd& operator=(const PooledCrowd&) = delete;
+
+  void add() {
+    nook_instance_id id = 0;
+    NOOK_OK_OR_FAIL(nook_scene_add_instance(scene, stage.model, &id));
+    const float plane[4] = {0, 1, 0, -0.6f};
+    if (ids.size() % 3 != 2) NOOK_OK_OR_FAIL(nook_scene_set_ground(scene, id, plane));
+    ids.push_back(id);
+  }
+  void look_from(Vec3 eye) const {
+    const float at[3] = {eye.x, eye.y, eye.z};
+    NOOK_OK_OR_FAIL(nook_scene_set_camera(scene, at));
+  }
+  // Plays clips, each instance at its place on the x axis.
+  void play(const std::vector<float>& x, double seconds) const {
+    Clips all;
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+      const float s = 1 + 0.1f * float(i % 2);
+      all.push_back({ids[i],
+                     0,
+                     {1, NOOK_CLIP_LOOP, seconds + 0.13 * double(i)},
+                     {0, 0, s, x[i], 0, s, 0, 0, -s, 0, 0, 0.3f * float(i % 4)}});
+    }
+    NOOK_OK_OR_FAIL(
+        nook_scene_set_clips(scene, stage.clips, all.data(), static_cast<std::uint32_t>(all.size())));
+  }
+  void update() const { NOOK_OK_OR_FAIL(nook_gl_scene_update(stage.gl, scene)); }
+  std::vector<float> ao(std::size_t i) const {
+    std::vector<float> out(file_vertices(stage.model), -1.0f);
+    NOOK_OK_OR_FAIL(nook_gl_scene_read(stage.gl, scene, ids[i], NOOK_CHANNEL_AO, out.data(),
+                                       static_cast<std::uint32_t>(out.size())));
+    return out;
+  }
+  std::vector<nook_gl_pool_view> views() const {
+    std::vector<nook_gl_pool_view> out(ids.size());
+    NOOK_OK_OR_FAIL(nook_gl_scene_read_pool(stage.gl, scene, ids.data(),
+                                            static_cast<std::uint32_t>(ids.size()), out.data(), nullptr));
+    return out;
+  }
+  nook_gl_pool_info info() const {
+    nook_gl_pool_info out{};
+    out.struct_size = sizeof out;
+    NOOK_OK_OR_FAIL(nook_gl_scene_read_pool(stage.gl, scene, nullptr, 0, nullptr, &out));
+    return out;
+  }
+  // The indices of the instances in a place.
+  std::vector<std::size_t> near() const {
+    const auto all = views();
+    std::vector<std::size_t> out;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].is_near) out.push_back(i);
+    return out;
+  }
+
+  const Stage& stage;
+  nook_scene scene = nullptr;
+  std::vector<nook_instance_id> ids;
+};
+
+bool is_open(const std::vector<float>& ao) {
+  return std::all_of(ao.begin(), ao.end(), [](float value) { return value == 1; });
+}
+
+// Near instances have the bits of the other scene, and far ones are open.
+void check_same(const PooledCrowd& pooled, const PooledCrowd& plain) {
+  const auto views = pooled.views();
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    CAPTURE(i, views[i].is_near);
+    if (views[i].is_near)
+      CHECK(pooled.ao(i) == plain.ao(i));
+    else
+      CHECK(is_open(pooled.ao(i)));
+  }
+}
+
+// Some stand near the camera and some a kilometre away, where they darken none of the near ones.
+std::vector<float> two_groups(std::size_t count, std::size_t shift = 0) {
+  std::vector<float> x;
+  for (std::size_t i = 0; i < count; ++i)
+    x.push_back((i + shift) % 4 < 2 ? 0.9f * float((i + shift) % 8) : 1000.0f + float(i));
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("near instances of a pool have the AO of a scene without one, to the bit") {
+  NOOK_NEED_COMPUTE(context);
+  const Stage stage(context);
+  for (const std::uint32_t nearest : {0u, 3u}) {
+    INFO("nearest " << nearest);
+    PoolOptions options;
+    options.nearest = nearest;
+    const PooledCrowd plain(stage, 16, options);
+    options.places = 8;
+    const PooledCrowd pooled(stage, 16, options);
+    for (std::size_t frame = 0; frame < 4; ++frame) {
+      const auto x = two_groups(16, frame);
+      for (const PooledCrowd* crowd : {&plain, &pooled}) {
+        crowd->play(x, 0.1 * double(frame));
+        crowd->update();
+      }
+      CHECK(pooled.info().near_count == 8);
+      CHECK(pooled.info().waiting_count == 0);
+      const auto near = pooled.near();
+      CHECK_FALSE(
+          std::all_of(near.begin(), near.end(), [&](std::size_t i) { return is_open(pooled.ao(i)); }));
+      check_same(pooled, plain);
+    }
+  }
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+  for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
+}
+
+TEST_CASE("a full pool serves the nearest instances and counts the others") {
+  NOOK_NEED_COMPUTE(context);
+  const Stage stage(context);
+  PoolOptions options;
+  const PooledCrowd plain(stage, 6, options);
+  options.places = 3;
+  const PooledCrowd pooled(stage, 6, options);
+  const auto play = [&](const std::vector<float>& x) {
+    for (const PooledCrowd* crowd : {&plain, &pooled}) {
+      crowd->play(x, 0.3);
+      crowd->update();
+    }
+    check_same(pooled, plain);
+  };
+  using Near = std::vector<std::size_t>;
+  play({8, 6, 4, 3, 2, 50});
+  CHECK(pooled.near() == Near{2, 3, 4});
+  CHECK(pooled.info().near_count == 3);
+  CHECK(pooled.info().waiting_count == 2);
+  // An instance that is a little nearer does not push another one out of its place; a much nearer one does.
+  play({8, 3.9f, 4, 3, 2, 50});
+  CHECK(pooled.near() == Near{2, 3, 4});
+  play({8, 3, 4, 3, 2, 50});
+  CHECK(pooled.near() == Near{1, 3, 4});
+  // A place stays taken a little beyond the distance.
+  play({50, 10.5f, 50, 10.5f, 2, 50});
+  CHECK(pooled.near() == Near{1, 3, 4});
+  play({50, 11.5f, 50, 11.5f, 2, 10.5f});
+  CHECK(pooled.near() == Near{4});
+  CHECK(pooled.info().waiting_count == 0);
+  // The distance may change while the scene has instances.
+  NOOK_OK_OR_FAIL(set_pool(stage.gl, pooled.scene, 3, 20));
+  play({50, 11.5f, 50, 11.5f, 2, 50});
+  CHECK(pooled.near() == Near{1, 3, 4});
+}
+
+TEST_CASE("instances come and go without an allocation, a wait or a query, and tell it by a generation") {
+  NOOK_NEED_COMPUTE(context);
+  for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS, NOOK_GL_STATE_HOST}) {
+    INFO("mode " << mode);
+    Trace trace(context);
+    const Stage stage(context, mode, Trace::loader, &trace);
+    const PooledCrowd pooled(stage, 16, {5, 10, 3});
+    pooled.play(two_groups(16), 0);
+    pooled.update();
+    trace.reset();
+    const long allocations = stage.host.allocations;
+    const std::uint64_t bytes = info_of(stage.gl).buffer_bytes;
+    std::vector<nook_gl_pool_view> before(16), after(16);
+    const auto ask = [&](std::vector<nook_gl_pool_view>& out) {
+      NOOK_OK_OR_FAIL(
+          nook_gl_scene_read_pool(stage.gl, pooled.scene, pooled.ids.data(), 16, out.data(), nullptr));
+    };
+    ask(before);
+    bool same = true;
+    int changes = 0;
+    std::vector<std::vector<float>> x;
+    for (std::size_t frame = 0; frame < 4; ++frame) x.push_back(two_groups(16, frame));
+    const auto place = [](const nook_gl_pool_view& view) { return std::pair(view.buffer, view.offset); };
+    long in_play = 0;
+    for (std::size_t frame = 0; frame < 200; ++frame) {
+      const long now = stage.host.allocations;
+      pooled.play(x[frame % 4], 0.05 * double(frame));
+      in_play += stage.host.allocations - now;
+      pooled.update();
+      ask(after);
+      for (std::size_t i = 0; i < 16; ++i) {
+        const bool moved = place(before[i]) != place(after[i]);
+        changes += moved;
+        // Another instance may have had the place between; then the generation changes too.
+        same &= !moved || before[i].generation != after[i].generation;
+      }
+      std::swap(before, after);
+    }
+    CHECK(same);
+    CHECK(changes > 200);
+    CHECK(in_play == 0);
+    CHECK(stage.host.allocations == allocations);
+    CHECK(info_of(stage.gl).buffer_bytes == bytes);
+    CHECK(trace.forbidden_in_frame(mode == NOOK_GL_STATE_PRESERVE) == std::set<std::string>());
+    // Views stay while nobody moves.
+    pooled.update();
+    ask(after);
+    for (std::size_t i = 0; i < 16; ++i) CHECK(before[i].generation == after[i].generation);
+  }
+}
+
+TEST_CASE("a pool keeps the state contract") {
+  NOOK_NEED_COMPUTE(context);
+  const unsigned users = users_of_tier(tiers_of(context).front());
+  for (const nook_gl_state_mode mode : {NOOK_GL_STATE_PRESERVE, NOOK_GL_STATE_DEFAULTS}) {
+    INFO("mode " << mode);
+    const Stage stage(context, mode);
+    const PooledCrowd pooled(stage, 8, {4});
+    for (std::size_t step = 0; step < 3; ++step) {
+      Poison poison(context, users);
+      if (mode == NOOK_GL_STATE_DEFAULTS) poison.reset_touched();
+      const StateValues touched = poison.touched(), untouched = poison.untouched();
+      pooled.play(two_groups(8, step), 0.1 * double(step));
+      pooled.update();
+      CHECK(poison.touched() == (mode == NOOK_GL_STATE_DEFAULTS ? poison.defaults() : touched));
+      CHECK(poison.untouched() == untouched);
+    }
+    CHECK(context.gl().GetError() == GL_NO_ERROR);
+  }
+  for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
+}
+
+TEST_CASE("poses on the GPU take places of a pool in the call that brings them") {
+  NOOK_NEED_COMPUTE(context);
+  const Stage stage(context);
+  // The twin without a pool tells the bounds.
+  const PooledCrowd told_by(stage, 9, {}), plain(stage, 9, {}), pooled(stage, 9, {9, 2.5f});
+  const CrowdPoses poses = random_poses({}, 9);
+  std::vector<nook_gl_instance_pose> all(9);
+  for (std::size_t i = 0; i < 9; ++i) {
+    const nook_pose_desc desc = pose_of(poses, i);
+    NOOK_OK_OR_FAIL(nook_scene_set_pose(told_by.scene, told_by.ids[i], &desc));
+    nook_scene_instance_info info{};
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_scene_describe_instance(told_by.scene, told_by.ids[i], &info));
+    all[i].first_transform = poses.first_transform(i);
+    std::copy_n(info.bound_centre_ws, 3, all[i].bound_centre_ws);
+    all[i].bound_radius = info.bound_radius;
+    all[i].scale = largest_scale(converted(stage.model, poses, i));
+    std::copy_n(poses.places[i].begin(), 12, all[i].place_3x4);
+  }
+  const std::vector<std::uint32_t> words = poses.words(0);
+  const HostBuffer buffer(context.gl(), std::as_bytes(std::span(words)));
+  const auto set = [&](const PooledCrowd& crowd) {
+    nook_pose_desc desc = pose_of(poses, 0);
+    desc.transforms = nullptr;
+    desc.place_3x4 = nullptr;
+    nook_gl_poses call{};
+    call.struct_size = sizeof call;
+    call.pose = &desc;
+    call.buffer = buffer.name();
+    call.size = words.size() * sizeof(std::uint32_t);
+    std::vector<nook_gl_instance_pose> some = all;
+    for (std::size_t i = 0; i < some.size(); ++i) some[i].instance = crowd.ids[i];
+    NOOK_OK_OR_FAIL(nook_gl_scene_set_poses(stage.gl, crowd.scene, &call, some.data(), 9));
+  };
+  const auto look = [&](Vec3 eye) {
+    for (const PooledCrowd* crowd : {&plain, &pooled}) crowd->look_from(eye);
+  };
+  const auto update = [&] {
+    for (const PooledCrowd* crowd : {&plain, &pooled}) crowd->update();
+    check_same(pooled, plain);
+  };
+  set(plain);
+  const auto centre = [&](std::size_t i) {
+    return Vec3{all[i].bound_centre_ws[0], all[i].bound_centre_ws[1], all[i].bound_centre_ws[2]};
+  };
+  // Some are near each other, and some are not.
+  float mean = 0;
+  for (std::size_t i = 1; i < 9; ++i) mean += length(centre(i) - centre(0)) / 8;
+  NOOK_OK_OR_FAIL(set_pool(stage.gl, pooled.scene, 9, mean));
+  for (const std::size_t i : {0, 8, 3, 0}) {
+    look(centre(i));
+    set(pooled);
+    update();
+    CHECK(pooled.info().near_count > 1);
+    CHECK(pooled.info().near_count < 9);
+  }
+  // Without new poses, those that come near stay far, and those that stay near keep theirs.
+  const auto before = pooled.near();
+  look(centre(4));
+  update();
+  for (const std::size_t i : pooled.near()) CHECK(std::count(before.begin(), before.end(), i) == 1);
+  set(pooled);
+  update();
+  // After a release the poses are lost, and all are far until the next ones.
+  NOOK_OK_OR_FAIL(nook_gl_scene_release(stage.gl, pooled.scene));
+  update();
+  CHECK(pooled.info().near_count == 0);
+  set(pooled);
+  update();
+  CHECK(pooled.info().near_count > 1);
+  // From poses on the GPU to clips and back.
+  look({1, 0, 1});
+  for (const PooledCrowd* crowd : {&plain, &pooled}) crowd->play(std::vector<float>(9, 1.0f), 0.4);
+  update();
+  CHECK(pooled.info().near_count == 9);
+  look(centre(0));
+  set(plain);
+  set(pooled);
+  update();
+  CHECK(pooled.info().near_count < 9);
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+  for (const std::string& message : take_debug_messages()) FAIL_CHECK(message);
+}
+
+TEST_CASE("instances of a pool may be posed on the CPU, added, removed and left without a pose") {
+  NOOK_NEED_COMPUTE(context);
+  const Stage stage(context);
+  PooledCrowd plain(stage, 6, {}), pooled(stage, 6, {3});
+  pooled.update();
+  CHECK(pooled.info().near_count == 0);  // nobody has a pose
+  CHECK(is_open(pooled.ao(0)));
+  const auto play = [&](const std::vector<float>& x) {
+    for (PooledCrowd* crowd : {&plain, &pooled}) {
+      crowd->play(x, 0.3);
+      Numbers numbers(5);
+      const std::vector<Mat3x4> bones = random_pose(numbers, stage.bones, {1, 0, 0});
+      nook_pose_desc desc;
+      NOOK_OK_OR_FAIL(nook_pose_desc_init(&desc));
+      desc.kind = NOOK_POSE_REST_TO_WORLD;
+      desc.layout = NOOK_TRANSFORM_ROWS_3X4;
+      desc.transforms = bones.data()->m;
+      desc.transform_count = stage.bones;
+      NOOK_OK_OR_FAIL(nook_scene_set_pose(crowd->scene, crowd->ids[0], &desc));
+      crowd->update();
+    }
+    check_same(pooled, plain);
+  };
+  play({0, 1, 2, 50, 50, 50});
+  CHECK(pooled.near() == std::vector<std::size_t>{0, 1, 2});
+  // The bones that the host set are there to read.
+  std::uint32_t count = 0;
+  NOOK_OK_OR_FAIL(nook_scene_read_key_points(pooled.scene, pooled.ids[0], nullptr, &count));
+  CHECK(nook_scene_read_key_points(pooled.scene, pooled.ids[1], nullptr, &count) == NOOK_ERROR_UNSUPPORTED);
+  CHECK(says("instance"));
+  // A near one goes for good, and new ones come.
+  for (PooledCrowd* crowd : {&plain, &pooled}) {
+    NOOK_OK_OR_FAIL(nook_scene_remove_instance(crowd->scene, crowd->ids[1]));
+    crowd->ids.erase(crowd->ids.begin() + 1);
+    for (int i = 0; i < 3; ++i) crowd->add();
+  }
+  play({0, 2, 50, 50, 50, 50, 3, 50});
+  CHECK(pooled.near() == std::vector<std::size_t>{0, 1, 6});
+  // Another nook_gl, and this one again.
+  nook_gl other = create_gl(stage.host.handle, platform::Context::loader, &context, 0);
+  NOOK_OK_OR_FAIL(nook_gl_scene_update(other, pooled.scene));
+  nook_gl_destroy(&other);
+  play({0, 50, 2, 50, 50, 50, 3, 50});
+  CHECK(pooled.near() == std::vector<std::size_t>{0, 2, 6});
+  // Two scenes share a model's buffers: one leaves.
+  nook_scene_destroy(&plain.scene);
+  pooled.update();
+  CHECK(pooled.near() == std::vector<std::size_t>{0, 2, 6});
+}
+
+TEST_CASE("a scene with a pool refuses what it cannot do, and says why") {
+  NOOK_NEED_COMPUTE(context);
+  const Stage stage(context);
+  const PooledCrowd plain(stage, 2, {}), pooled(stage, 4, {2});
+  pooled.play({0, 1, 50, 50}, 0);
+  pooled.update();
+  const nook_scene scene = pooled.scene;
+  const nook_instance_id far = pooled.ids[3];
+  const auto refused = [](nook_result got, nook_result need, const char* text) {
+    CHECK(got == need);
+    INFO(nook_last_message());
+    CHECK(says(text));
+  };
+  constexpr nook_result unsupported = NOOK_ERROR_UNSUPPORTED, invalid = NOOK_ERROR_INVALID_ARGUMENT;
+  refused(nook_scene_update(scene), unsupported, "has a pool");
+  const nook_lobe lobe{{0, 1, 0}, 6, {1, 2, 3}, 0};
+  refused(nook_scene_set_light(scene, far, &lobe, 1), unsupported, "has a pool");
+  NOOK_OK_OR_FAIL(nook_scene_set_light(scene, far, nullptr, 0));
+  std::vector<float> out(file_vertices(stage.model));
+  const auto vertices = static_cast<std::uint32_t>(out.size());
+  refused(nook_scene_read(scene, far, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, out.data(), vertices, 0),
+          unsupported, "has no bones on the CPU");
+  std::uint32_t count = 0;
+  refused(nook_scene_read_spheres(scene, far, nullptr, &count), unsupported, "has no bones on the CPU");
+  refused(nook_scene_read_key_points(scene, far, nullptr, &count), unsupported, "has no bones on the CPU");
+  refused(nook_scene_set_model(scene, far, stage.model), unsupported, "has no bones on the CPU");
+  std::size_t size = 0;
+  refused(nook_scene_record_pose(scene, far, nullptr, &size), unsupported, "has no bones on the CPU");
+  nook_gl_view view{};
+  view.struct_size = sizeof view;
+  refused(nook_gl_scene_view(stage.gl, scene, far, NOOK_CHANNEL_DIRECTIONAL_AO, &view),
+          NOOK_ERROR_INVALID_HANDLE, "no light");
+  NOOK_OK_OR_FAIL(nook_gl_scene_view(stage.gl, scene, far, NOOK_CHANNEL_AO, &view));
+  CHECK(view.count == vertices);
+  CHECK(view.buffer == pooled.views()[3].buffer);
+  // Descriptors.
+  refused(set_pool(stage.gl, scene, 3, 10), invalid, "only the distance of its pool may change");
+  refused(set_pool(stage.gl, plain.scene, 3, 10), invalid, "only the distance of its pool may change");
+  refused(set_pool(stage.gl, scene, 0, 10), invalid, "desc.places");
+  for (const float distance : {0.0f, -1.0f, INFINITY, NAN})
+    refused(set_pool(stage.gl, scene, 2, distance), invalid, "desc.distance");
+  refused(set_pool(stage.gl, scene, 2, 10, 1u << 20), invalid, "desc.instance_count");
+  nook_gl_pool_desc small{sizeof small - 4, 2, 10, 0};
+  refused(nook_gl_scene_set_pool(stage.gl, scene, &small), invalid, "desc.struct_size");
+  nook_gl_pool_view views[2];
+  refused(nook_gl_scene_read_pool(stage.gl, plain.scene, nullptr, 0, nullptr, nullptr), invalid,
+          "the scene has no pool");
+  const nook_instance_id unknown[2] = {pooled.ids[0], 0};
+  refused(nook_gl_scene_read_pool(stage.gl, scene, unknown, 2, views, nullptr), NOOK_ERROR_INVALID_HANDLE,
+          "no instance 0");
+  // A tier without compute shaders.
+  nook_gl without =
+      create_gl(stage.host.handle, platform::Context::loader, &context, tiers_of(context).back());
+  if (!computes(info_of(without).tier)) {
+    nook_scene empty = nullptr;
+    nook_scene_desc desc;
+    NOOK_OK_OR_FAIL(nook_scene_desc_init(&desc));
+    NOOK_OK_OR_FAIL(nook_scene_create(stage.host.handle, &desc, &empty));
+    refused(set_pool(without, empty, 2, 10), unsupported, "a pool needs compute shaders");
+    nook_scene_destroy(&empty);
+    refused(nook_gl_scene_update(without, scene), unsupported, "has a pool");
+    refused(nook_gl_scene_read_pool(without, scene, pooled.ids.data(), 1, views, nullptr),
+            NOOK_ERROR_INVALID_HANDLE, "has no AO buffer yet");
+  }
+  nook_gl_destroy(&without);
+  pooled.update();
+  CHECK(pooled.info().near_count == 2);
+}
+
+TEST_CASE("every refused allocation of a pool gives an error and leaves everything usable") {
+  NOOK_NEED_COMPUTE(context);
+  const Stage stage(context);
+  const PooledCrowd plain(stage, 8, {});
+  plain.play(two_groups(8), 0.2);
+  plain.update();
+  auto& host = const_cast<CountedContext&>(stage.host);
+  const long long bytes = host.bytes;
+  const std::uint64_t gl_bytes = info_of(stage.gl).buffer_bytes;
+  int refusals = 0;
+  for (long n = 0;; ++n) {
+    INFO("allocation " << n);
+    nook_result result = NOOK_OK;
+    {
+      const PooledCrowd pooled(stage, 8, {4});
+      pooled.play(two_groups(8), 0.2);
+      host.refuse_after = n;
+      result = nook_gl_scene_update(stage.gl, pooled.scene);
+      host.refuse_after = -1;
+      if (result != NOOK_OK) CHECK(result == NOOK_ERROR_OUT_OF_MEMORY);
+      pooled.update();
+      CHECK(pooled.info().near_count == 4);
+      check_same(pooled, plain);
+      NOOK_OK_OR_FAIL(nook_gl_scene_release(stage.gl, pooled.scene));
+    }
+    CHECK(host.bytes == bytes);
+    CHECK(info_of(stage.gl).buffer_bytes <= gl_bytes + file_vertices(stage.model) * sizeof(float));
+    if (result == NOOK_OK) break;
+    ++refusals;
+  }
+  CHECK(refusals >= 10);  // the parts of four places, their casters, lists of places and chunks
+}
+
+TEST_CASE("an update of a pool that OpenGL gives no memory leaves no AO of another instance") {
+  NOOK_NEED_COMPUTE(context);
+  Trace trace(context);
+  const Stage stage(context, NOOK_GL_STATE_PRESERVE, Trace::loader, &trace);
+  const PooledCrowd plain(stage, 4, {}), pooled(stage, 4, {2});
+  const auto play = [&](const std::vector<float>& x) {
+    for (const PooledCrowd* crowd : {&plain, &pooled}) crowd->play(x, 0.2);
+    plain.update();
+  };
+  play({0, 1, 50, 50});
+  pooled.update();
+  play({50, 50, 0, 1});
+  trace.mapping_fails = true;
+  CHECK(nook_gl_scene_update(stage.gl, pooled.scene) == NOOK_ERROR_GL);
+  trace.mapping_fails = false;
+  for (std::size_t i = 0; i < 4; ++i) CHECK(is_open(pooled.ao(i)));
+  pooled.update();
+  CHECK(pooled.near() == std::vector<std::size_t>{2, 3});
+  check_same(pooled, plain);
+}
+
+TEST_CASE("the memory of an instance that is far in a pool is at most 512 bytes") {
+  NOOK_NEED_COMPUTE(context);
+  const std::vector<unsigned char> file = platform::read_file(NOOK_MANNEQUIN);
+  const CharacterModel body =
+      read_character_model({reinterpret_cast<const std::byte*>(file.data()), file.size()});
+  const Stage stage(context, NOOK_GL_STATE_PRESERVE, platform::Context::loader, nullptr, body);
+  constexpr std::size_t count = 10'000, places = 200;
+  PoolOptions options;
+  options.places = places;
+  options.distance = 30;
+  options.reserved = count;
+  options.nearest = 4;
+  options.cutoff_error = 1.0f / 1024;
+  options.lod_error = 1e-2f;
+  const auto x = [](std::size_t instances) {
+    std::vector<float> out;
+    for (std::size_t i = 0; i < instances; ++i)
+      out.push_back(i % 50 == 0 ? 0.1f * float(i / 50) : 100 + 0.1f * float(i));
+    return out;
+  };
+  // The memory of the same places with only their own instances.
+  const auto bytes_of = [&] {
+    return stage.host.bytes + static_cast<long long>(info_of(stage.gl).buffer_bytes);
+  };
+  const auto held = [&](std::size_t instances) {
+    PoolOptions exact = options;
+    exact.reserved = static_cast<std::uint32_t>(instances);
+    const long long before = bytes_of();
+    const PooledCrowd crowd(stage, instances, exact);
+    std::vector<float> near(instances, 500.0f);
+    for (std::size_t i = 0; i < places; ++i) near[i] = 0.1f * float(i);
+    crowd.play(near, 0.2);
+    crowd.update();
+    CHECK(crowd.info().near_count == places);
+    const long long bytes = bytes_of() - before;
+    NOOK_OK_OR_FAIL(nook_gl_scene_release(stage.gl, crowd.scene));
+    return bytes;
+  };
+  const double each = double(held(count) - held(places)) / double(count - places);
+  std::printf(
+      "memory of a far instance of a pool: %.0f bytes in all, host and OpenGL, with four neighbours\n", each);
+  CHECK(each <= 512);
+
+  // Culling, levels and neighbours among 10,000: as if only the near ones were there.
+  const PooledCrowd pooled(stage, count, options);
+  pooled.play(x(count), 0.2);
+  pooled.update();
+  CHECK(pooled.info().near_count == places);
+  options.places = 0;
+  const PooledCrowd plain(stage, places, options);
+  Clips all;
+  for (std::size_t i = 0; i < places; ++i)
+    all.push_back({plain.ids[i],
+                   0,
+                   {1, NOOK_CLIP_LOOP, 0.2 + 0.13 * double(50 * i)},
+                   {0, 0, 1, 0.1f * float(i), 0, 1, 0, 0, -1, 0, 0, 0.3f * float(50 * i % 4)}});
+  // The grounds of the crowd, which depend on the index.
+  const float plane[4] = {0, 1, 0, -0.6f};
+  for (std::size_t i = 0; i < places; ++i)
+    NOOK_OK_OR_FAIL(nook_scene_set_ground(plain.scene, plain.ids[i], 50 * i % 3 != 2 ? plane : nullptr));
+  NOOK_OK_OR_FAIL(nook_scene_set_clips(plain.scene, stage.clips, all.data(), places));
+  plain.update();
+  std::size_t different = 0;
+  for (std::size_t i = 0; i < places; ++i) different += pooled.ao(50 * i) != plain.ao(i);
+  CHECK(different == 0);
+  std::uint32_t levels = 0;
+  for (std::size_t i = 0; i < places; i += 50) {
+    nook_scene_instance_info info{};
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_scene_describe_instance(pooled.scene, pooled.ids[50 * i], &info));
+    levels |= 1u << info.level;
+  }
+  CHECK(levels != 1);
+}
