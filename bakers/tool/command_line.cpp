@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "bakers/tool/bake_survey.h"
 #include "bakers/tool/command_end.h"
@@ -14,6 +15,29 @@
 #include "sdk/src/core/failure.h"
 
 namespace nook::tool {
+namespace {
+
+// The name of the checks that fault_of_whole_number makes.
+constexpr const char* whole_number_check = "whole number";
+
+void leave_range_of_type(CLI::Option& option) {
+  try {
+    option.get_validator(whole_number_check)->active(false);
+  } catch (const CLI::OptionNotFound&) {
+  }
+}
+
+// Refuses what a conversion to an unsigned type would change without a word: it takes -1 as the largest
+// number, and numbers that are too large as well.
+std::string fault_of_whole_number(const std::string& text, std::uint64_t low, std::uint64_t high) {
+  std::uint64_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  if (error == std::errc() && stop == end && number >= low && number <= high) return "";
+  return "\"" + text + "\" is not a whole number from " + std::to_string(low) + " to " + std::to_string(high);
+}
+
+}  // namespace
 
 Check::Check(const CLI::Validator& validator)
     : validator_(std::make_shared<const CLI::Validator>(validator)) {}
@@ -28,7 +52,18 @@ Check Check::operator|(const Check& other) const {
 
 template <class T>
 Check in_range(T low, T high) {
-  return Check(CLI::Range(low, high));
+  CLI::Range range(low, high);
+  if constexpr (std::is_integral_v<T>) {
+    if (std::cmp_greater_equal(low, 0)) {
+      CLI::Validator whole(
+          [low, high](std::string& text) {
+            return fault_of_whole_number(text, std::uint64_t(low), std::uint64_t(high));
+          },
+          range.get_description(), whole_number_check);
+      return Check(whole);
+    }
+  }
+  return Check(range);
 }
 template Check in_range(int, int);
 template Check in_range(unsigned, unsigned);
@@ -55,6 +90,8 @@ Option Option::required() const {
   return Option(option_->required());
 }
 Option Option::check(const Check& check) const {
+  // The option's own range takes the place of the range of its type, so that messages name it.
+  if (check.validator().get_name() == whole_number_check) leave_range_of_type(*option_);
   return Option(option_->check(check.validator()));
 }
 Option Option::check(const std::function<std::string(const std::string&)>& fault) const {
@@ -150,16 +187,6 @@ std::string fault_of_path(const std::string& path) {
                      : "";
 }
 
-// Rejects numbers that a conversion to an unsigned type would silently change. It would convert -1 and
-// numbers that are too large to the largest number.
-std::string fault_of_whole_number(const std::string& text, std::uint64_t largest) {
-  std::uint64_t number = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, error] = std::from_chars(text.data(), end, number);
-  if (error == std::errc() && stop == end && number <= largest) return "";
-  return "\"" + text + "\" is not a whole number from 0 to " + std::to_string(largest);
-}
-
 template <class T>
 constexpr bool is_path =
     std::is_same_v<T, std::filesystem::path> || std::is_same_v<T, std::vector<std::filesystem::path>>;
@@ -216,10 +243,12 @@ using TwoNamesFourNumbers = std::tuple<std::string, std::string, float, float, f
 template <class T>
 requires(!std::is_enum_v<T>) Option Command::add_option(const char* names, T& value, const std::string& help)
 const {
-  const Option option(app_->add_option(names, value, help));
+  CLI::Option* const added = app_->add_option(names, value, help);
+  const Option option(added);
   if constexpr (is_path<T>) option.check([](const std::string& path) { return fault_of_path(path); });
   if constexpr (largest_number<T> != 0) {
-    option.check([](const std::string& text) { return fault_of_whole_number(text, largest_number<T>); });
+    added->check([](const std::string& text) { return fault_of_whole_number(text, 0, largest_number<T>); },
+                 "", whole_number_check);
   }
   return option;
 }

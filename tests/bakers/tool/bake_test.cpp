@@ -148,6 +148,14 @@ TEST_CASE("bad arguments exit with 2, name the fault and write nothing") {
     run = folder.run(small_bake(in, out, {"--seed", "18446744073709551616"}));
     expected = "\"18446744073709551616\" is not a whole number from 0 to 18446744073709551615";
   }
+  SECTION("a negative number of threads: the message has the range of the option, not of its type") {
+    run = folder.run(small_bake(in, out, {"--threads", "-1"}));
+    expected = "--threads: \"-1\" is not a whole number from 0 to 1024";
+  }
+  SECTION("a number of rays that is not whole") {
+    run = folder.run(small_bake(in, out, {"--rays", "1.5"}));
+    expected = "--rays: \"1.5\" is not a whole number from 1 to 65536";
+  }
   INFO(run.error);
   CHECK(run.exit_code == 2);
   CHECK(has(run.error, expected));
