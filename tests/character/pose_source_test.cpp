@@ -319,3 +319,75 @@ TEST_CASE("normals decide between the two sides of a card") {
   CHECK(match_vertices(model, host, found, nook::default_memory()).unmatched == 0);
   for (std::uint32_t i = 0; i < 20; ++i) CHECK(found[i] == i);
 }
+
+namespace {
+
+// Transforms that the host has in one form and describes as another.
+struct WrongForm {
+  nook_transform_layout layout, named_layout;
+  std::size_t named_stride;
+  nook_pose_fault fault;
+  const char* text;
+};
+const WrongForm wrong_forms[] = {
+    {NOOK_TRANSFORM_ROWS_3X4, NOOK_TRANSFORM_ROWS_3X4, 64, NOOK_POSE_FAULT_UNKNOWN,
+     "the transforms are 48 bytes apart, not 64; set desc.stride"},
+    {NOOK_TRANSFORM_ROWS_4X4, NOOK_TRANSFORM_ROWS_3X4, 48, NOOK_POSE_FAULT_UNKNOWN,
+     "the transforms are 64 bytes apart, not 48; set desc.stride"},
+    {NOOK_TRANSFORM_COLUMNS_4X4, NOOK_TRANSFORM_ROWS_3X4, 48, NOOK_POSE_FAULT_TRANSPOSED,
+     "have the layout NOOK_TRANSFORM_COLUMNS_4X4 and are 64 bytes apart, not NOOK_TRANSFORM_ROWS_3X4 and 48"},
+    {NOOK_TRANSFORM_ROWS_3X4, NOOK_TRANSFORM_COLUMNS_4X4, 64, NOOK_POSE_FAULT_TRANSPOSED,
+     "have the layout NOOK_TRANSFORM_ROWS_3X4 and are 48 bytes apart, not NOOK_TRANSFORM_COLUMNS_4X4 and 64"},
+    {NOOK_TRANSFORM_COLUMNS_4X3, NOOK_TRANSFORM_COLUMNS_4X4, 64, NOOK_POSE_FAULT_UNKNOWN,
+     "have the layout NOOK_TRANSFORM_COLUMNS_4X3 and are 48 bytes apart"},
+    {NOOK_TRANSFORM_DUAL_QUATERNION, NOOK_TRANSFORM_ROWS_3X4, 48, NOOK_POSE_FAULT_UNKNOWN,
+     "have the layout NOOK_TRANSFORM_DUAL_QUATERNION and are 32 bytes apart"},
+    {NOOK_TRANSFORM_TRS, NOOK_TRANSFORM_COLUMNS_4X4, 64, NOOK_POSE_FAULT_UNKNOWN,
+     "have the layout NOOK_TRANSFORM_TRS and are 40 bytes apart"},
+};
+
+}  // namespace
+
+TEST_CASE("the check of a pose names the layout and the stride that fit the host's bytes") {
+  nook::test::SampleSize size;
+  size.bones = 8;
+  const CharacterModel model = test::sample_model(3, size);
+  Numbers numbers(11);
+  for (const WrongForm& form : wrong_forms) {
+    INFO(form.text);
+    std::vector<float> floats;
+    std::vector<Affine> bones;
+    for (std::size_t b = 0; b < model.bone_count(); ++b) {
+      const Trs trs = random_trs(numbers, 1);
+      const std::vector<float> one = in_layout(trs, form.layout);
+      bones.push_back(to_affine(trs));
+      floats.insert(floats.end(), one.begin(), one.end());
+    }
+    const std::size_t bytes_named = model.bone_count() * form.named_stride;
+    // The memory ends where the descriptor says, so that the address sanitizer sees a read beyond it.
+    floats.resize(bytes_named / sizeof(float));
+    std::vector<SkinnedVertex> vertices;
+    for (std::uint32_t v = 0; v < model.bind.vertices.size(); ++v) {
+      const RestVertex& rest = model.bind.vertices[v];
+      SkinnedVertex& vertex = vertices.emplace_back();
+      vertex.rest_vertex = v;
+      for (std::uint32_t b = 0; b < rest.bone_count; ++b) {
+        const auto p = transform(bones[rest.bone[b]], rest.position.x, rest.position.y, rest.position.z);
+        for (std::size_t i = 0; i < 3; ++i) vertex.position_ws[i] += rest.weight[b] * p[i];
+      }
+    }
+    PoseSource source;
+    source.layout = form.named_layout;
+    source.stride = form.named_stride;
+    source.transforms = floats.data();
+    source.transform_count = static_cast<std::uint32_t>(model.bone_count());
+    check_pose_source(model, source);
+    // 0.005 is the default of nook_pose_check_desc.
+    const PoseFinding finding =
+        find_pose_fault(model, source, vertices, Affine{}, 0.005, nook::default_memory());
+    INFO(finding.text);
+    CHECK(finding.fault == form.fault);
+    CHECK(std::string(finding.text).find(form.text) != std::string::npos);
+    CHECK(std::string(finding.text).find("no known mistake") == std::string::npos);
+  }
+}

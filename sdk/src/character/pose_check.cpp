@@ -128,6 +128,7 @@ bool pose(Check& check, const Reading& reading) {
   }
   std::fill(check.has_matrix.begin(), check.has_matrix.end(), std::uint8_t{0});
   for_each_transform(check.model, source, [&](std::size_t bone, std::uint32_t index) {
+    if (index >= reading.readable_count) return;
     check.matrix[bone] = bone_matrix(check.model, source, bone, read_transform(reading, index));
     check.has_matrix[bone] = is_finite(check.matrix[bone]);
   });
@@ -269,6 +270,9 @@ void explain_difference(Check& check, const Reading& as_given, PoseFinding& find
   const Vector<Reading> readings = other_readings(check.model, check.given, memory);
   for (const Reading& reading : readings)
     if (fits(check, reading)) describe(check.model, check.given, reading, finding);
+  if (finding.fault == NOOK_POSE_FAULT_NONE)
+    for (const Reading& reading : readings_of_other_layouts(check.given, memory))
+      if (fits(check, reading)) describe(check.model, check.given, reading, finding);
   const bool is_readable = pose(check, as_given);
   if (is_readable) explain_by_place(points_of(check), finding);
   if (finding.fault == NOOK_POSE_FAULT_NONE && is_readable) explain_by_order(check, finding);

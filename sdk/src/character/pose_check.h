@@ -40,6 +40,9 @@ struct Reading {
   bool is_inverted = false;
   int mirrored_axis = -1;  // the axis that is mirrored both before and after the transform; -1: none
   double translation_scale = 1;
+  std::uint32_t readable_count =
+      ~0u;  // only transforms below this index lie in the memory that the host gave
+  bool is_laid_out_otherwise = false;  // the same bytes in another layout or with another stride
   nook_pose_fault fault = NOOK_POSE_FAULT_NONE;
 
   Reading(const PoseSource& as_given, Memory* memory) : source(as_given), map(memory) {}
@@ -47,10 +50,12 @@ struct Reading {
 
 Affine read_transform(const Reading& reading, std::uint32_t index);
 
-// other_readings returns all readings that differ from the host's own reading by one mistake.
+// other_readings returns all readings that differ from the host's own reading by one mistake, without
+// readings_of_other_layouts: the same bytes as transforms of other sizes, layouts and strides.
 // readings_of_two_mistakes returns all readings that differ by two mistakes. Both put the most likely reading
 // first.
 Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& given, Memory* memory);
+Vector<Reading> readings_of_other_layouts(const PoseSource& given, Memory* memory);
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory);
 

@@ -127,8 +127,64 @@ Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& gi
   return out;
 }
 
-// If the layout is wrong, a reading with another kind cannot match either. So each other layout is also tried
-// together with each other kind.
+namespace {
+
+const char* layout_name(nook_transform_layout layout) {
+  constexpr const char* names[] = {"NOOK_TRANSFORM_ROWS_3X4",        "NOOK_TRANSFORM_ROWS_4X4",
+                                   "NOOK_TRANSFORM_COLUMNS_4X4",     "NOOK_TRANSFORM_COLUMNS_4X3",
+                                   "NOOK_TRANSFORM_DUAL_QUATERNION", "NOOK_TRANSFORM_TRS"};
+  static_assert(std::size(names) == NOOK_TRANSFORM_TRS + 1);
+  return names[layout];
+}
+
+// Three rows of four numbers are read alike, with or without a fourth row after them.
+bool has_rows(nook_transform_layout layout) {
+  return layout == NOOK_TRANSFORM_ROWS_3X4 || layout == NOOK_TRANSFORM_ROWS_4X4;
+}
+
+bool is_read_alike(nook_transform_layout a, nook_transform_layout b) {
+  return a == b || (has_rows(a) && has_rows(b));
+}
+
+void add_layout(const PoseSource& given, nook_transform_layout layout, std::size_t stride, Memory* memory,
+                Vector<Reading>& out) {
+  const std::size_t bytes = floats_of_layout(layout) * sizeof(float);
+  const std::size_t of_host =
+      (given.given_count - 1) * given.stride + floats_of_layout(given.layout) * sizeof(float);
+  if (stride < bytes || bytes > of_host || (is_read_alike(layout, given.layout) && stride == given.stride))
+    return;
+  Reading reading(given, memory);
+  reading.source.layout = layout;
+  reading.source.stride = stride;
+  reading.readable_count = static_cast<std::uint32_t>((of_host - bytes) / stride + 1);
+  reading.is_laid_out_otherwise = true;
+  // The enumeration has no value for layouts, except for rows and columns.
+  reading.fault = has_rows(layout) != has_rows(given.layout) && layout <= NOOK_TRANSFORM_COLUMNS_4X3 &&
+                          given.layout <= NOOK_TRANSFORM_COLUMNS_4X3
+                      ? NOOK_POSE_FAULT_TRANSPOSED
+                      : NOOK_POSE_FAULT_UNKNOWN;
+  out.push_back(reading);
+}
+
+}  // namespace
+
+// The host's own layout with other strides comes first, then each other layout with the host's stride, and
+// tightly packed. The strides 48 and 64 belong to 3x4 and 4x4 matrices.
+Vector<Reading> readings_of_other_layouts(const PoseSource& given, Memory* memory) {
+  Vector<Reading> out(memory);
+  const auto bytes_of = [](nook_transform_layout layout) { return floats_of_layout(layout) * sizeof(float); };
+  for (const std::size_t stride : {bytes_of(given.layout), std::size_t{48}, std::size_t{64}})
+    if (out.empty() || out.back().source.stride != stride)
+      add_layout(given, given.layout, stride, memory, out);
+  for (nook_transform_layout layout = NOOK_TRANSFORM_ROWS_3X4; layout <= NOOK_TRANSFORM_TRS; ++layout) {
+    if (layout == given.layout) continue;
+    add_layout(given, layout, given.stride, memory, out);
+    if (bytes_of(layout) != given.stride) add_layout(given, layout, bytes_of(layout), memory, out);
+  }
+  return out;
+}
+
+// With a wrong layout, no kind matches. So each other layout is also tried together with each other kind.
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory) {
   Vector<Reading> out(memory);
@@ -159,11 +215,27 @@ void describe_transposed(const PoseSource& given, const Reading& reading, PoseFi
         "the transforms are transposed: rows were passed as columns, or columns as rows; set desc.layout");
 }
 
+void describe_layout(const PoseSource& given, const Reading& reading, PoseFinding& finding) {
+  const PoseSource& source = reading.source;
+  if (source.layout == given.layout)
+    explain(finding, reading.fault, "the transforms are %zu bytes apart, not %zu; set desc.stride",
+            source.stride, given.stride);
+  else if (source.stride == given.stride)
+    explain(finding, reading.fault, "the transforms have the layout %s, not %s; set desc.layout",
+            layout_name(source.layout), layout_name(given.layout));
+  else
+    explain(finding, reading.fault,
+            "the transforms have the layout %s and are %zu bytes apart, not %s and %zu; set desc.layout and "
+            "desc.stride",
+            layout_name(source.layout), source.stride, layout_name(given.layout), given.stride);
+}
+
 }  // namespace
 
 void describe(const CharacterModel& model, const PoseSource& given, const Reading& reading,
               PoseFinding& finding) {
   const PoseSource& source = reading.source;
+  if (reading.is_laid_out_otherwise) return describe_layout(given, reading, finding);
   const std::uint32_t skin = source.kind == NOOK_POSE_SKINNING ? model.bind.skins[source.skin].file_index : 0;
   switch (reading.fault) {
     case NOOK_POSE_FAULT_TRANSPOSED:
