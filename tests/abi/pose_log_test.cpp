@@ -284,3 +284,106 @@ TEST_CASE("a clip at an uneven place is logged once for an instance and once for
   CHECK(log.warnings.size() == 1);
   nook_clips_destroy(&clips);
 }
+
+TEST_CASE("a ground above much of the body is logged once for an instance, with the likely mistake") {
+  struct Ground {
+    float height;  // of the body's centre; its spheres are up to 0.4 m around it
+    float plane[4];
+    const char* advice;  // null: no message
+  };
+  const Ground ground =
+      GENERATE(Ground{1, {0, 1, 0, 0}, nullptr},                            // jumps above the floor
+               Ground{1, {0, 1, 0, 0.5f}, nullptr},                         // stands on it
+               Ground{1, {0, 1, 0, 0.62f}, nullptr},                        // sinks in a little
+               Ground{1, {0, 1, 0, 1.15f}, "check its normal and height"},  // to the hip
+               Ground{0.5f, {0, -1, 0, 0}, "turn the normal"}, Ground{2.5f, {0, -1, 0, 2}, "turn the normal"},
+               Ground{2.5f, {0, -1, 0, -2}, "change the signs of normal and offset"},
+               Ground{-1.5f, {0, 1, 0, 2}, "change the sign of the offset"},
+               Ground{1, {0, 1, 0, 100}, "check its normal and height"});
+  INFO("height " << ground.height << ", normal " << ground.plane[1] << ", offset " << ground.plane[3]);
+  LogStage log;
+  const std::uint32_t count = log.stage.info.bone_count;
+  Rows raised = identity;
+  raised[7] = ground.height;
+  const std::vector<Rows> rows(count, raised);
+  const nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
+  for (int frame = 0; frame < 3; ++frame) {
+    // Until its pose is set, a body is at the origin. Only an update tells which pose and ground belong
+    // together.
+    for (const nook_instance_id id : log.ids) {
+      REQUIRE(nook_scene_set_ground(log.scene, id, ground.plane) == NOOK_OK);
+      REQUIRE(nook_scene_set_pose(log.scene, id, &desc) == NOOK_OK);
+    }
+    REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  }
+  REQUIRE(log.warnings.size() == (ground.advice ? 2u : 0u));
+  for (std::size_t i = 0; i < log.warnings.size(); ++i) {
+    INFO(log.warnings[i]);
+    CHECK(has(log.warnings[i], ("instance " + std::to_string(log.ids[i])).c_str()));
+    CHECK(has(log.warnings[i], ground.advice));
+  }
+}
+
+TEST_CASE("in a crowd, some later update logs a ground above the body") {
+  LogStage log;
+  const std::uint32_t count = log.stage.info.bone_count;
+  std::vector<nook_instance_id> crowd(50);
+  for (nook_instance_id& id : crowd) REQUIRE(nook_scene_add_instance(log.scene, log.model, &id) == NOOK_OK);
+  const std::vector<Rows> rows(count, identity);
+  const nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
+  const float plane[4] = {0, 1, 0, 3};
+  for (const nook_instance_id id : {crowd[5], crowd[49]}) {
+    REQUIRE(nook_scene_set_pose(log.scene, id, &desc) == NOOK_OK);
+    REQUIRE(nook_scene_set_ground(log.scene, id, plane) == NOOK_OK);
+  }
+  // 52 instances, 16 for each update.
+  for (int frame = 0; frame < 4; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  CHECK(log.warnings.size() == 2);
+}
+
+TEST_CASE("bones that lie far apart are logged once for an instance") {
+  // Between two bones, in metres; in the rest pose the sample's radius is 0.9.
+  const float apart = GENERATE(0.0f, 0.3f, 30.0f);
+  LogStage log;
+  const std::uint32_t count = log.stage.info.bone_count;
+  std::vector<Rows> rows(count, identity);
+  for (std::size_t b = 0; b < rows.size(); ++b) rows[b][3] = apart * float(b);
+  const nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
+  REQUIRE(nook_scene_set_pose(log.scene, log.ids[0], &desc) == NOOK_OK);
+  for (int frame = 0; frame < 3; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  REQUIRE(log.warnings.size() == (apart > 1 ? 1u : 0u));
+  if (apart > 1) CHECK(has(log.warnings[0], "the bones lie far apart"));
+  if (apart > 1) CHECK(has(log.warnings[0], ("instance " + std::to_string(log.ids[0])).c_str()));
+}
+
+TEST_CASE("a body in the place of another one is logged if it is darkened") {
+  const bool is_linked = GENERATE(false, true);
+  const float apart = GENERATE(0.0f, 0.5f);
+  LogStage log;
+  const std::uint32_t count = log.stage.info.bone_count;
+  Rows moved = identity;
+  moved[3] = apart;
+  const std::vector<Rows> rows(count, moved);
+  const nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
+  REQUIRE(nook_scene_set_pose(log.scene, log.ids[0], &desc) == NOOK_OK);
+  if (is_linked) REQUIRE(nook_scene_link_nearest(log.scene, 4, 10) == NOOK_OK);
+  for (int frame = 0; frame < 3; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  REQUIRE(log.warnings.size() == (is_linked && apart == 0 ? 2u : 0u));
+  for (const std::string& line : log.warnings) CHECK(has(line, "is at the same place and darkens it"));
+}
+
+TEST_CASE("AO that is read before the first update is logged once for an instance") {
+  LogStage log;
+  std::vector<float> ao(log.stage.info.file_vertex_count);
+  const auto read = [&](nook_instance_id id) {
+    REQUIRE(nook_scene_read(log.scene, id, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao.data(),
+                            log.stage.info.file_vertex_count, 0) == NOOK_OK);
+  };
+  for (int i = 0; i < 2; ++i) read(log.ids[0]);
+  REQUIRE(log.warnings.size() == 1);
+  CHECK(has(log.warnings[0], "nook_scene_update was not called"));
+  CHECK(has(log.warnings[0], ("instance " + std::to_string(log.ids[0])).c_str()));
+  REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  for (const nook_instance_id id : log.ids) read(id);
+  CHECK(log.warnings.size() == 1);
+}

@@ -4,6 +4,7 @@
 #include "sdk/src/api/descriptor_list.h"
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/handles.h"
+#include "sdk/src/api/pose_log.h"
 #include "sdk/src/character/gpu_pose.h"
 #include "sdk/src/character/occluded_directions.h"
 #include "sdk/src/character/scene_readings.h"
@@ -196,20 +197,23 @@ nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms) {
 }
 
 nook_result nook_scene_update(nook_scene scene) {
-  return with_scene("nook_scene_update", scene, [](Scene& s) {
+  return with_scene("nook_scene_update", scene, [&](Scene& s) {
     need_cpu_poses(s);
     make_arrays(s);
     update(s);
+    api::log_bodies(*scene->context, s);
   });
 }
 
 nook_result nook_scene_read(nook_scene scene, nook_instance_id instance, nook_channel channel,
                             nook_format format, void* out, uint32_t count, size_t stride) {
-  return with_scene("nook_scene_read", scene, [&](const Scene& s) {
-    const Instance& found = instance_of(s, instance);
+  return with_scene("nook_scene_read", scene, [&](Scene& s) {
+    Instance& found = instance_of(s, instance);
     need(out, "out");
     stride = check_output(found, count, stride, entry_bytes_of(channel, format));
     need_cpu_pose(found);
+    // Bent normals need no update.
+    if (channel != NOOK_CHANNEL_BENT_NORMAL) api::log_missing_update(*scene->context, found);
     switch (channel) {
       case NOOK_CHANNEL_DIRECTIONAL_AO:
         return read_directional_ao(s, found, static_cast<float*>(out), stride);

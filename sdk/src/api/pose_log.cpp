@@ -1,7 +1,9 @@
 #include "sdk/src/api/pose_log.h"
 
+#include <algorithm>
 #include <cstdio>
 
+#include "sdk/src/character/body_check.h"
 #include "sdk/src/character/gpu_pose.h"
 
 namespace nook::api {
@@ -71,6 +73,92 @@ void log_without_world_casters(const Context& context, Scene& scene) {
         "is instance %u; pass capsules for them in nook_world_frame_desc, or set their poses with "
         "nook_scene_set_pose",
         fresh, first);
+}
+
+namespace {
+
+const char* advice_of(GroundMistake mistake) {
+  switch (mistake) {
+    case GroundMistake::turned_normal:
+      return "turn the normal, which must point out of the floor, to the side of the body";
+    case GroundMistake::both_signs:
+      return "change the signs of normal and offset, as the normal must point out of the floor";
+    case GroundMistake::offset_sign:
+      return "change the sign of the offset, which is dot(normal, p) of a point p on the floor";
+    default:
+      return "check its normal and height: the offset is dot(normal, p) of a point p on the floor, in the "
+             "unit of the "
+             "pose";
+  }
+}
+
+void log_ground(const Context& context, Instance& instance) {
+  if (!instance.input.has_ground || (instance.input.reported & topic_ground)) return;
+  const GroundFinding finding = check_ground(instance);
+  if (!finding.is_wrong) return;
+  instance.input.reported |= topic_ground;
+  const Plane& ground = instance.input.ground;
+  context.log(
+      NOOK_LOG_WARNING,
+      "instance %u: about %.0f %% of the body is below its ground, up to %.3g deep (normal %g %g %g, offset "
+      "%g), which darkens it; %s",
+      instance.id, 100 * double(finding.share_below), double(finding.depth), double(ground.normal.x),
+      double(ground.normal.y), double(ground.normal.z), double(ground.offset), advice_of(finding.mistake));
+}
+
+void log_size(const Context& context, Instance& instance) {
+  if (instance.input.reported & topic_size) return;
+  const float size = relative_size(instance);
+  if (size <= max_relative_size) return;
+  instance.input.reported |= topic_size;
+  context.log(
+      NOOK_LOG_WARNING,
+      "instance %u: the bones lie far apart, as the posed body is %.3g times as large as its rest pose; "
+      "check the unit of the translations, which are metres unless desc.place_3x4 scales, desc.kind and "
+      "the order of the bones. nook_model_check_pose names the fault",
+      instance.id, double(size));
+}
+
+void log_same_place(const Context& context, const Scene& scene, Instance& instance) {
+  if (instance.input.reported & topic_same_place) return;
+  const Instance* const other = caster_at_same_place(scene, instance);
+  if (!other) return;
+  instance.input.reported |= topic_same_place;
+  context.log(
+      NOOK_LOG_WARNING,
+      "instance %u: instance %u is at the same place and darkens it; set desc.place_3x4 of each pose, "
+      "and remove instances that you do not show",
+      instance.id, other->id);
+}
+
+void log_body(const Context& context, const Scene& scene, Instance& instance) {
+  if (!instance.id) return;
+  if (scene.terms & NOOK_TERM_GROUND) log_ground(context, instance);
+  if (scene.terms & NOOK_TERM_LINKS) log_same_place(context, scene, instance);
+  log_size(context, instance);
+}
+
+}  // namespace
+
+void log_bodies(const Context& context, Scene& scene) {
+  constexpr std::size_t at_once = 16;
+  const std::size_t slots = scene.instances.size();
+  if (slots == 0) return;
+  const std::size_t first = scene.frame * at_once % slots;
+  for (std::size_t i = 0; i < std::min(at_once, slots); ++i)
+    log_body(context, scene, scene.instances[(first + i) % slots]);
+}
+
+void log_missing_update(const Context& context, Instance& instance) {
+  if (instance.result.evaluated_frame > 0 || instance.input.clip.is_used()) return;
+  const std::atomic_ref reported(instance.input.reported);
+  if (reported.load(std::memory_order_relaxed) & topic_no_update) return;
+  if (reported.fetch_or(topic_no_update, std::memory_order_relaxed) & topic_no_update) return;
+  context.log(NOOK_LOG_WARNING,
+              "instance %u: nook_scene_read gives AO 1, because nook_scene_update was not called since the "
+              "instance was added or got another model; call it after you set poses. What "
+              "nook_gl_scene_update computes is on the GPU; read it with nook_gl_scene_read",
+              instance.id);
 }
 
 }  // namespace nook::api

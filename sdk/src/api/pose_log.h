@@ -1,4 +1,4 @@
-// Logs warnings about poses that were accepted, but that are probably not what the host meant.
+// Logs warnings about poses and grounds that were accepted, but that are probably not what the host meant.
 #pragma once
 
 #include <atomic>
@@ -16,5 +16,13 @@ void log_pose(const Context& context, const char* subject, const CharacterModel&
               const PoseNotes& notes, std::atomic<std::uint32_t>& reported);
 // For each instance whose pose is on the GPU, logs once that the instance does not darken the world.
 void log_without_world_casters(const Context& context, Scene& scene);
+// For each instance whose body is largely below its ground, far larger than the rest pose, or at the place of
+// a body that darkens it, logs this once. Call it after an update. To cost the same for crowds of any size,
+// each call looks at a few instances in turn.
+void log_bodies(const Context& context, Scene& scene);
+
+// Logs once for an instance that its AO is read before the first update on the CPU. Any thread that may read
+// the instance may call it.
+void log_missing_update(const Context& context, Instance& instance);
 
 }  // namespace nook::api

@@ -1,5 +1,6 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/scene_handle.h"
+#include "sdk/src/api/pose_log.h"
 #include "sdk/src/core/checks.h"
 #include "sdk/src/core/descriptors.h"
 #include "sdk/src/gl/character/light_texture.h"
@@ -84,8 +85,10 @@ nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene) {
 }
 
 nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene) {
-  return api::with_gl_scene("nook_gl_scene_update", gl, scene,
-                            [&] { gl->guarded([&] { gl->characters->update(api::handle_of(scene)); }); });
+  return api::with_gl_scene("nook_gl_scene_update", gl, scene, [&] {
+    gl->guarded([&] { gl->characters->update(api::handle_of(scene)); });
+    api::log_bodies(*scene->context, scene->scene);
+  });
 }
 
 nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance, nook_channel channel,
