@@ -1,10 +1,30 @@
-// Draws only the pixels in which the host's depth shows a surface. An occlusion query tells the pass whether
-// there are such pixels.
+// Draws only the pixels of one question of SurfaceWatch. A query then counts them.
 #include "shaders/nnao/host_depth.glsl"
+
+uniform NOOK_HOST_IMAGE nook_layer;
+uniform int nook_question;
+
+// In a pass that excludes surfaces, its own limit; otherwise the limit of layers that replace AO.
+#ifndef NOOK_NO_SURFACE_ABOVE
+#define NOOK_NO_SURFACE_ABOVE NOOK_REPLACED_ABOVE
+#endif
 
 out vec4 nook_out;
 
+bool nook_is_counted(ivec2 pixel, float depth) {
+  if (nook_question == NOOK_WATCH_UNMASKED) {
+    float limit = nook_layer_mode > NOOK_LAYER_REPLACE ? NOOK_NO_SURFACE_ABOVE : NOOK_REPLACED_ABOVE;
+    return nook_host_texel(nook_layer, pixel).g <= limit;
+  }
+  float radius_px = nook_radius / abs(nook_screen_rays.z * nook_extent(depth));
+  if (nook_question == NOOK_WATCH_FAR_ENOUGH) return radius_px <= float(nook_screen_size.y);
+  if (nook_question == NOOK_WATCH_NEAR_ENOUGH) return radius_px >= 2.0;
+  return true;
+}
+
 void main() {
-  if (nook_screen_depth(ivec2(gl_FragCoord.xy) - nook_origin) == nook_no_surface) discard;
+  ivec2 pixel = ivec2(gl_FragCoord.xy) - nook_origin;
+  float depth = nook_screen_depth(pixel);
+  if (depth == nook_no_surface || !nook_is_counted(pixel, depth)) discard;
   nook_out = vec4(0.0);
 }

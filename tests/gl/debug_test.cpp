@@ -227,6 +227,91 @@ TEST_CASE("debug: a frame without a surface is logged by a later frame, once") {
   }
 }
 
+TEST_CASE("debug: a mask that covers every surface is logged, by each pass") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  const Camera camera = plain_camera(float(width) / height);
+  const GLuint depth = fixture.depth_of(camera, look(camera, still_life(), width, height));
+  // AO 1 and a weight.
+  const auto mask = [&](float weight, float of_first_half) {
+    std::vector<float> pixels;
+    for (int i = 0; i < width * height; ++i) {
+      const float w = i < width * height / 2 ? of_first_half : weight;
+      pixels.insert(pixels.end(), {1, w});
+    }
+    return fixture.textures.floats(GL_RG32F, 2, width, height, pixels);
+  };
+  const GLuint all = mask(1, 1), half = mask(1, 0), most = mask(0.7f, 0.7f);
+  CountedContext host;
+  Trace trace(context);
+  const DebugGl gl(context, host.handle, Trace::loader, &trace, 1);
+  nook_nnao pass = create_pass(gl.handle, pass_desc(width, height));
+  nook_world_desc world_desc = world::world_desc(width, height);
+  nook_world world = nullptr;
+  NOOK_OK_OR_FAIL(nook_world_create(gl.handle, &world_desc, &world));
+  const auto reports = [&](GLuint texture, nook_gbuffer_ao mode) {
+    const std::ptrdiff_t before = lines_with(host, "the mask covers every surface");
+    for (int i = 0; i < 4; ++i) {
+      ScreenFrame frame = frame_desc(camera, width, height, depth, 0, 0.5f);
+      frame.gbuffer_ao = mode;
+      frame.gbuffer_ao_texture = texture;
+      DarkenedFrame darkened(frame);
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
+      NOOK_OK_OR_FAIL(nook_world_render(world, &darkened, &darkened));
+      context.gl().Finish();  // so that answers are there
+    }
+    return lines_with(host, "the mask covers every surface") - before;
+  };
+  CHECK(reports(half, NOOK_GBUFFER_AO_EXCLUDE) == 0);
+  CHECK(reports(all, NOOK_GBUFFER_AO_EXCLUDE) == 2);
+  CHECK(reports(half, NOOK_GBUFFER_AO_REPLACE) == 0);
+  CHECK(reports(all, NOOK_GBUFFER_AO_REPLACE) == 2);
+  // A weight above one half excludes a surface from the screen pass, but it is mixed otherwise.
+  CHECK(reports(most, NOOK_GBUFFER_AO_REPLACE) == 0);
+  CHECK(reports(most, NOOK_GBUFFER_AO_EXCLUDE) == 1);
+  // The smaller AO counts, so green has no meaning.
+  CHECK(reports(all, NOOK_GBUFFER_AO_MIN) == 0);
+  nook_nnao_destroy(&pass);
+  nook_world_destroy(&world);
+}
+
+TEST_CASE("debug: a radius in another unit than the depth is logged, once") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  // So many rows that half a metre covers 5 to 25 of them, as the surfaces are 1 to 6 metres away.
+  constexpr int wide = 96, high = 64;
+  const Camera camera = plain_camera(float(wide) / high);
+  const GLuint depth = fixture.depth_of(camera, look(camera, still_life(), wide, high));
+  for (const std::int32_t half : {0, 1}) {
+    CountedContext host;
+    Trace trace(context);
+    const DebugGl gl(context, host.handle, Trace::loader, &trace, 1);
+    PassDesc desc = pass_desc(wide, high);
+    desc.half_resolution = half;
+    nook_nnao pass = create_pass(gl.handle, desc);
+    const auto render = [&](float radius, nook_nnao_radius_kind kind) {
+      for (int i = 0; i < 6; ++i) {
+        ScreenFrame frame = frame_desc(camera, wide, high, depth, 0, radius);
+        frame.radius_kind = kind;
+        frame.scene_size = 100;
+        NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
+        context.gl().Finish();  // so that answers are there
+      }
+      return std::pair(lines_with(host, "the radius is larger than the picture"),
+                       lines_with(host, "the radius is smaller than two pixels"));
+    };
+    using Counts = std::pair<std::ptrdiff_t, std::ptrdiff_t>;
+    // Metres; a share of the screen fits every depth.
+    CHECK((render(0.5f, NOOK_NNAO_RADIUS_METRES) == Counts{0, 0}));
+    CHECK((render(1, NOOK_NNAO_RADIUS_SCREEN) == Counts{0, 0}));
+    // Centimetres in a scene in metres, and metres in kilometres or a scene in centimetres.
+    CHECK((render(50, NOOK_NNAO_RADIUS_METRES) == Counts{1, 0}));
+    CHECK((render(0.005f, NOOK_NNAO_RADIUS_METRES) == Counts{1, 1}));
+    CHECK((render(0.5f, NOOK_NNAO_RADIUS_SCENE) == Counts{2, 1}));
+    nook_nnao_destroy(&pass);
+  }
+}
+
 TEST_CASE("debug: AO is the same with it, also of two eyes and of samples") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);

@@ -184,7 +184,8 @@ Vector<Reading> readings_of_other_layouts(const PoseSource& given, Memory* memor
   return out;
 }
 
-// With a wrong layout, no kind matches. So each other layout is also tried together with each other kind.
+// If the layout is wrong, a reading with another kind cannot match either. So each other layout is also tried
+// together with each other kind.
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory) {
   Vector<Reading> out(memory);

@@ -61,7 +61,10 @@ GLuint NnaoPass::accumulate(const NnaoFrame& frame, const FrameConstants& consta
 void NnaoPass::render(NnaoFrame& frame) {
   frame.normalised_normals = check(images_of(frame, desc_), frame.textures_changed).normalised_normals;
   begin_frame();
-  watch_surfaces(frame, [&](const NnaoFrame& layer) { bind_depth(layer.depth_texture); });
+  watch_surfaces(frame, [&](const NnaoFrame& layer) {
+    bind_depth(layer.depth_texture);
+    bind_host(NOOK_UNIT_LAYER, layer.gbuffer_ao != NOOK_GBUFFER_AO_NONE ? layer.gbuffer_ao_texture : 0);
+  });
   if (desc_.views == 0) {
     render_layer(frame, 0);
     return;

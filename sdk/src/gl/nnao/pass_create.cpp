@@ -186,7 +186,7 @@ void NnaoPass::make_programs(const nnao::Network& network) {
   resolve_stage_ = drawn("nnao/resolve.frag", defines);
   layered_stage_ = drawn("nnao/resolve.frag", layered);
   show_normals_stage_ = drawn("nnao/show_normals.frag", defines);
-  if (device_.debug) make_watch(drawn("nnao/surface.frag", defines));
+  if (device_.debug) make_watch(drawn("nnao/surface.frag", apart), true);
   // Both forms of the network have the same number of groups for the same number of taps.
   device_.gl.UseProgram(occlusion_stage_.program.name());
   device_.gl.Uniform1i(uniform_location(device_, occlusion_stage_.program, "nook_tap_groups"),

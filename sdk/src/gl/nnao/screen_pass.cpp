@@ -64,9 +64,16 @@ void ScreenPass::make_stage(ScreenStage& stage, Object program, std::span<const 
     device_.gl.Uniform1i(uniform_location(device_, stage.program, sampler.name), sampler.unit);
 }
 
-void ScreenPass::make_watch(ScreenStage stage) {
+void ScreenPass::make_watch(ScreenStage stage, bool has_radius) {
   watch_stage_ = std::move(stage);
-  watch_.emplace(device_);
+  watch_question_ = uniform_location(device_, watch_stage_.program, "nook_question");
+  watch_.emplace(device_, has_radius);
+}
+
+void ScreenPass::draw_watch(const NnaoFrame& frame, int layer, int question) const {
+  set_frame(watch_stage_, frame_constants(frame, desc_, 0, layer));
+  device_.gl.Uniform1i(watch_question_, question);
+  draw(own_.framebuffer(), viewport_of(frame), false);
 }
 
 ImageFacts ScreenPass::check(const HostImages& images, bool changed) {

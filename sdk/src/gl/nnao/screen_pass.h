@@ -53,22 +53,24 @@ class ScreenPass {
   // Checks the images of a frame, and returns facts about them. If an image is not suitable, throws Failure
   // before anything is drawn.
   ImageFacts check(const HostImages& images, bool changed);
-  // Sets the stage that draws only pixels with a surface, for SurfaceWatch. It is only used if
+  // Sets the stage that draws only the pixels that SurfaceWatch asks for. It is only used if
   // nook_gl_desc.debug is set.
-  void make_watch(ScreenStage stage);
-  // If the stage of make_watch exists, checks whether the frame shows any surface. bind_depth(frame) must
-  // bind the depth of a layer. The check draws into the pass's own texture. The frame overwrites this texture
+  void make_watch(ScreenStage stage, bool has_radius);
+  // If the stage of make_watch exists, checks whether the frame can show AO. bind_images(frame) must bind the
+  // depth and the G-buffer AO of a layer. Draws into the pass's own texture, which the frame overwrites
   // later.
-  template <class BindDepth>
-  void watch_surfaces(const NnaoFrame& frame, const BindDepth& bind_depth) {
-    if (!watch_ || !watch_->begin(device_, frame)) return;
-    for (int layer = 0; layer < drawn_layers(desc_); ++layer) {
-      const NnaoFrame one = desc_.views > 0 ? layer_frame(frame, layer) : frame;
-      bind_depth(one);
-      set_frame(watch_stage_, frame_constants(one, desc_, 0, layer));
-      draw(own_.framebuffer(), viewport_of(one), false);
+  template <class BindImages>
+  void watch_surfaces(const NnaoFrame& frame, const BindImages& bind_images) {
+    if (!watch_ || !watch_->begin_frame(device_, frame)) return;
+    for (int question = 0; question < SurfaceWatch::questions; ++question) {
+      if (!watch_->begin(device_, question)) continue;
+      for (int layer = 0; layer < drawn_layers(desc_); ++layer) {
+        const NnaoFrame one = desc_.views > 0 ? layer_frame(frame, layer) : frame;
+        bind_images(one);
+        draw_watch(one, layer, question);
+      }
+      watch_->end(device_);
     }
-    watch_->end(device_);
   }
   // Sets the OpenGL state that is common to all draws of a frame.
   void begin_frame() const;
@@ -91,9 +93,12 @@ class ScreenPass {
   Object sampler_, vertex_array_, target_framebuffer_;
 
  private:
+  void draw_watch(const NnaoFrame& frame, int layer, int question) const;
+
   CheckedImages checked_;
   std::optional<SurfaceWatch> watch_;
   ScreenStage watch_stage_;
+  GLint watch_question_ = -1;
   bool coarse_depth_told_ = false;
 };
 

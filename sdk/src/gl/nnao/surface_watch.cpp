@@ -1,37 +1,118 @@
 #include "sdk/src/gl/nnao/surface_watch.h"
 
+#include <cstdint>
+
 namespace nook::gl {
 
-bool SurfaceWatch::begin(const Device& device, const NnaoFrame& frame) {
-  const Functions& gl = device.gl;
-  if (pending_) {
-    GLuint there = GL_FALSE, seen = GL_FALSE;
-    gl.GetQueryObjectuiv(query_.name(), GL_QUERY_RESULT_AVAILABLE, &there);
-    if (!there) return false;
-    gl.GetQueryObjectuiv(query_.name(), GL_QUERY_RESULT, &seen);
-    pending_ = false;
-    if (!seen && !told_) report(device);
-    told_ = !seen;
+SurfaceWatch::SurfaceWatch(Device& device, bool has_radius)
+    : has_radius_(has_radius),
+      target_(device.gl.profile == Profile::desktop ? GL_SAMPLES_PASSED : GL_ANY_SAMPLES_PASSED) {
+  for (Query& query : queries_) query.object = Object::make(device, Object::Kind::query);
+}
+
+bool SurfaceWatch::asks(int question) const {
+  switch (question) {
+    case NOOK_WATCH_UNMASKED:
+      return frame_.show == NOOK_NNAO_VIEW_AO && frame_.gbuffer_ao >= NOOK_GBUFFER_AO_REPLACE;
+    case NOOK_WATCH_FAR_ENOUGH:
+    case NOOK_WATCH_NEAR_ENOUGH:
+      return has_radius_ && frame_.radius_kind != NOOK_NNAO_RADIUS_SCREEN;
+    default:
+      return true;
   }
-  depth_kind_ = frame.depth_kind;
-  clip_space_ = frame.clip_space;
-  depth_texture_ = frame.depth_texture;
-  gl.BeginQuery(GL_ANY_SAMPLES_PASSED, query_.name());
+}
+
+bool SurfaceWatch::begin_frame(const Device& device, const NnaoFrame& frame) {
+  if (!read(device)) return false;
+  if (is_watching_) judge(device);
+  is_watching_ = true;
+  frame_ = frame;
+  return true;
+}
+
+bool SurfaceWatch::begin(const Device& device, int question) {
+  if (!asks(question)) return false;
+  Query& query = queries_[std::size_t(question)];
+  device.gl.BeginQuery(target_, query.object.name());
+  query.pending = true;
   return true;
 }
 
 void SurfaceWatch::end(const Device& device) {
-  device.gl.EndQuery(GL_ANY_SAMPLES_PASSED);
-  pending_ = true;
+  device.gl.EndQuery(target_);
 }
 
-void SurfaceWatch::report(const Device& device) const {
-  device.context.log(
-      NOOK_LOG_WARNING,
-      "nook_gl: an earlier frame showed no surface: all of frame.depth_texture %u is sky or beyond the far "
-      "plane (with frame.depth_kind %d and frame.clip_space %d); check that depth was drawn before the call. "
-      "Also check frame.depth_kind, reversed depth, frame.clip_space and frame.sky_depth",
-      depth_texture_, depth_kind_, clip_space_);
+// Returns false if a result is not there yet.
+bool SurfaceWatch::read(const Device& device) {
+  const Functions& gl = device.gl;
+  for (Query& query : queries_) {
+    if (!query.pending) continue;
+    GLuint there = GL_FALSE;
+    gl.GetQueryObjectuiv(query.object.name(), GL_QUERY_RESULT_AVAILABLE, &there);
+    if (!there) return false;
+    gl.GetQueryObjectuiv(query.object.name(), GL_QUERY_RESULT, &query.pixels);
+    query.pending = false;
+  }
+  return true;
+}
+
+void SurfaceWatch::judge(const Device& device) {
+  const GLuint seen = queries_[NOOK_WATCH_SURFACE].pixels;
+  for (int question = 0; question < questions; ++question) {
+    // Without a surface, the other questions have no answer.
+    if (!asks(question) || (question != NOOK_WATCH_SURFACE && seen == 0)) continue;
+    // A radius that fits 1 of 20 pixels was probably meant. For OpenGL ES, which only tells 1 from 0, it must
+    // fit none.
+    const bool is_radius = question == NOOK_WATCH_FAR_ENOUGH || question == NOOK_WATCH_NEAR_ENOUGH;
+    const std::uint64_t pixels = queries_[std::size_t(question)].pixels;
+    const bool is_wrong = is_radius ? 20 * pixels < seen : pixels == 0;
+    bool& told = told_[std::size_t(question)];
+    if (is_wrong && !told) report(device, question);
+    told = is_wrong;
+  }
+}
+
+void SurfaceWatch::report(const Device& device, int question) const {
+  const Context& context = device.context;
+  const double radius =
+      double(frame_.radius) * (frame_.radius_kind == NOOK_NNAO_RADIUS_SCENE ? double(frame_.scene_size) : 1);
+  switch (question) {
+    case NOOK_WATCH_UNMASKED:
+      context.log(NOOK_LOG_WARNING,
+                  "nook_gl: an earlier frame got no AO from the pass, because the mask covers every surface: "
+                  "the green "
+                  "channel of frame.gbuffer_ao_texture %u is 1 at all of them (with frame.gbuffer_ao %d); "
+                  "clear green "
+                  "to 0 where the pass shall darken, such as on floors",
+                  frame_.gbuffer_ao_texture, frame_.gbuffer_ao);
+      return;
+    case NOOK_WATCH_FAR_ENOUGH:
+      context.log(
+          NOOK_LOG_WARNING,
+          "nook_gl: at almost all surfaces of an earlier frame, the radius is larger than the picture is "
+          "high "
+          "(got %g units of view space); give the radius in the unit of frame.projection, such as 0.5 in "
+          "metres, and check that the projection's near and far plane are those that drew the depth",
+          radius);
+      return;
+    case NOOK_WATCH_NEAR_ENOUGH:
+      context.log(
+          NOOK_LOG_WARNING,
+          "nook_gl: at almost all surfaces of an earlier frame, the radius is smaller than two pixels, so "
+          "that AO is hardly seen (got %g units of view space); give the radius in the unit of "
+          "frame.projection, such as 50 in centimetres, and check that the projection's near and far plane "
+          "are those that drew the depth",
+          radius);
+      return;
+    default:
+      context.log(
+          NOOK_LOG_WARNING,
+          "nook_gl: an earlier frame showed no surface: all of frame.depth_texture %u is sky or beyond "
+          "the far plane (with frame.depth_kind %d and frame.clip_space %d); check that depth was "
+          "drawn before the call. Also check frame.depth_kind, reversed depth, frame.clip_space and "
+          "frame.sky_depth",
+          frame_.depth_texture, frame_.depth_kind, frame_.clip_space);
+  }
 }
 
 }  // namespace nook::gl

@@ -1,29 +1,48 @@
-// If nook_gl_desc.debug is set, logs a message when the depth of a frame shows no surface. The message is
-// logged when the result of a query is available, which may be some frames later.
+// If nook_gl_desc.debug is set, logs a message when a frame cannot show AO. Then its depth shows no surface,
+// the host's mask covers all surfaces, or the radius does not fit the depth. The message comes when the
+// results of queries are available, which may be some frames later.
 #pragma once
+
+#include <array>
 
 #include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/object.h"
+#include "shaders/nnao/layout.h"
 
 namespace nook::gl {
 
 class SurfaceWatch {
  public:
-  explicit SurfaceWatch(Device& device) : query_(Object::make(device, Object::Kind::query)) {}
+  // The pixels that a query counts. surface.frag draws them.
+  static constexpr int questions = NOOK_WATCH_COUNT;
 
-  // Checks the query of an earlier frame. If it returns true, draw the pixels of this frame that show a
-  // surface, and then call `end`.
-  bool begin(const Device& device, const NnaoFrame& frame);
+  // A pass without a radius never asks about it.
+  SurfaceWatch(Device& device, bool has_radius);
+
+  // Checks the queries of an earlier frame. Returns true if their results are all there, so that this frame
+  // can be watched.
+  bool begin_frame(const Device& device, const NnaoFrame& frame);
+  // If the function returns true, draw the pixels of the question, and then call end.
+  bool begin(const Device& device, int question);
   void end(const Device& device);
 
  private:
-  void report(const Device& device) const;
+  struct Query {
+    Object object;
+    bool pending = false;
+    GLuint pixels = 0;  // of the last frame with a result; OpenGL ES only tells whether there are any
+  };
 
-  Object query_;
-  bool pending_ = false, told_ = false;
-  nook_depth_kind depth_kind_ = 0;  // depth kind of the frame that the query belongs to
-  nook_clip_space clip_space_ = 0;
-  std::uint32_t depth_texture_ = 0;
+  bool asks(int question) const;
+  bool read(const Device& device);
+  void judge(const Device& device);
+  void report(const Device& device, int question) const;
+
+  std::array<Query, questions> queries_;
+  std::array<bool, questions> told_{};
+  bool has_radius_, is_watching_ = false;
+  GLenum target_;
+  NnaoFrame frame_{};  // the frame that the queries belong to; its pointers are not followed
 };
 
 }  // namespace nook::gl

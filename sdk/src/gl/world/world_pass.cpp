@@ -75,7 +75,7 @@ WorldPass::WorldPass(Device& device, const nook_world_desc& desc)
   output_ = output("");
   layered_output_ = output("#define NOOK_LAYERED 1\n");
   if (half_) make_half(desc);
-  if (device.debug) make_watch(make_draw("nnao/surface.frag", ""));
+  if (device.debug) make_watch(make_draw("nnao/surface.frag", ""), false);
   own_ = RenderTexture(device, result_format(coloured_), desc.max_width, desc.max_height,
                        "nook: AO of the world");
   casters_.reserve(device, desc.capsules);
@@ -259,7 +259,7 @@ void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   const GLuint layer = screen.gbuffer_ao != NOOK_GBUFFER_AO_NONE ? screen.gbuffer_ao_texture : 0;
   begin_frame();
   bind_texture(NOOK_UNIT_DEPTH, screen.depth_texture);
-  watch_surfaces(screen, [](const NnaoFrame&) {});
+  watch_surfaces(screen, [&](const NnaoFrame&) { bind_texture(NOOK_UNIT_LAYER, layer); });
   bind_texture(NOOK_UNIT_NORMAL, screen.normal_texture);
   bind_texture(other_ao_unit, frame.ao_texture);
   bind_texture(caster_unit, 0);
