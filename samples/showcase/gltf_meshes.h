@@ -1,0 +1,26 @@
+// Reads what the import of a bake does not keep: texture coordinates, textures, and props.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "samples/showcase/stage.h"
+
+namespace showcase {
+
+// The triangles of a prop, moved by `world_from_file`. Its texture is appended to `textures` unless an equal
+// one is there. Throws std::runtime_error with a text that names the file.
+std::vector<Mesh> read_prop(const std::filesystem::path& glb, const glm::mat4& world_from_file,
+                            std::vector<Texture>& textures);
+
+// The texture coordinates of a character, in the order of the file's vertices, and its texture. Both are
+// missing if the character has no texture.
+struct CharacterSkin {
+  std::vector<glm::vec2> uvs;
+  int texture = no_texture;
+};
+CharacterSkin read_skin(const std::filesystem::path& glb, const std::vector<std::string>& without,
+                        std::vector<Texture>& textures);
+
+}  // namespace showcase
