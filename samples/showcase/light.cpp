@@ -235,6 +235,7 @@ Irradiance light_surfaces(const Stage& stage, const Cast& cast, const Surfaces& 
     // al. 2018, Combining Analytic Direct Illumination and Stochastic Shadows).
     out.ray_traced[pixels[k]] = occluded[k] / glm::max(unoccluded[k], glm::vec3(1e-6f));
   }
+  out.sun = averaged_on_surfaces(surfaces, out.sun, 1);
   for (const int step : {1, 2, 4}) out.ray_traced = averaged_on_surfaces(surfaces, out.ray_traced, step);
   for (std::size_t k = 0; k < pixels.size(); ++k) out.ray_traced[pixels[k]] *= open.at(normals[k]);
   return out;

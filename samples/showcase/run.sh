@@ -46,8 +46,8 @@ else
   bake Rogue_Hooded --without Knife_Offhand --without 1H_Crossbow --without 2H_Crossbow --without Knife --without Throwable
   set -- --stage samples/showcase/yard.json --assets "$out/assets" --models "$out/models"
 fi
-draw whole 1600 900 16 "$@"
-draw feet 264 300 64 "$@"
-draw hands 264 300 64 "$@"
+draw whole 1600 900 6 "$@"
+draw feet 264 300 32 "$@"
+draw hands 264 300 32 "$@"
 samples/showcase/sheet.py "$pictures" "$out/$(basename "$pictures").webp"
 echo "look at $out/$(basename "$pictures").webp"

@@ -1,10 +1,12 @@
 #!/usr/bin/env python3
 """Puts the pictures of the showcase together: the whole stage behind split lines, and its details below.
 
-  sheet.py FOLDER SHEET     FOLDER has a folder for each shot with off.png, nook.png and traced.png: whole, feet, hands
+  sheet.py FOLDER SHEET     FOLDER has a folder for each shot, whole, feet and hands, with off.png, nook.png, traced.png
+                            and report.json
 
 Needs python3-pil and fonts-dejavu-core of Debian.
 """
+import json
 import pathlib
 import sys
 
@@ -23,6 +25,12 @@ GAP = 6
 
 def pictures(folder, shot):
     return [Image.open(folder / shot / f"{kind}.png").convert("RGB") for kind, _ in KINDS]
+
+
+def named_with_errors(folder):
+    """The names of the pictures, with the mean squared error against the ray-traced one."""
+    errors = {row["picture"]: row["mse"] for row in json.loads((folder / "whole/report.json").read_text())["rows"]}
+    return [f"{words}, mse {errors[kind]:.4f}" if kind in errors else words for kind, words in KINDS]
 
 
 def split_x(split, y, size):
@@ -73,8 +81,8 @@ def main():
         sys.exit(__doc__)
     folder = pathlib.Path(sys.argv[1])
     whole = behind_lines(pictures(folder, "whole"))
-    for left, (_, words) in zip((0, *SPLITS), KINDS):
-        label(whole, round(left * whole.width + (LEAN * whole.height / 2 if left else 0)) + 18, 16, words, 30)
+    for left, words in zip((0, *SPLITS), named_with_errors(folder)):
+        label(whole, round(left * whole.width + (LEAN * whole.height / 2 if left else 0)) + 18, 16, words, 28)
     shots = [shot for shot in ("feet", "hands") if (folder / shot).is_dir()]
     row = details(folder, shots, whole.width)
     sheet = Image.new("RGB", (whole.width, whole.height + GAP + row.height), "white")
