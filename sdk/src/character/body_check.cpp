@@ -23,13 +23,14 @@ Depth depth_of_bound(const Sphere& bound, const Plane& plane) {
 
 Depth depth_below(const Instance& instance, const Plane& plane) {
   const InstanceInput& input = instance.input;
-  if (input.is_posed_on_gpu || input.clip.is_late) return depth_of_bound(input.bound, plane);
+  if (input.is_posed_on_gpu || input.clip.is_late || !instance.parts || instance.parts->bones.empty())
+    return depth_of_bound(input.bound, plane);
   const CharacterModel& model = instance.model->model;
   const float deep = -0.3f * model.bounding_radius * input.largest_scale();
   const float share = 1 / float(std::max<std::size_t>(model.spheres.size(), 1));
   Depth depth;
   for (const ProxySphere& sphere : model.spheres) {
-    const Vec3 centre = transform_point(input.bones[sphere.bone], sphere.centre);
+    const Vec3 centre = transform_point(instance.parts->bones[sphere.bone], sphere.centre);
     const float distance = dot(plane.normal, centre) - plane.offset;
     depth.share_below += distance < 0 ? share : 0;
     depth.share_deep += distance < deep ? share : 0;
