@@ -95,6 +95,7 @@ constexpr float unlimited = std::numeric_limits<float>::infinity();
 // The vertices of a mesh in a pose.
 struct PosedSurface {
   std::vector<Vec3> position, normal;
+  std::vector<float> ao;
 
   void pose(const SkinnedMesh& mesh, const Pose& pose) {
     skin_positions(mesh, pose, position);
@@ -113,18 +114,28 @@ float trace_surface_point(const RayScene& scene, const PosedSurface& surface, co
   return trace_point(scene, position, normalised(normal), patterns, unlimited, offset, random);
 }
 
-// Returns the weighted mean AO of the visible points, or `own` if none is visible.
+// Returns the AO of a hidden vertex with which interpolation comes closest to the AO of its visible
+// stand-ins, by least squares. `own` has the AO of all vertices. Other hidden vertices of a triangle are
+// taken to have the same unknown AO. Returns `least` if no stand-in is visible.
 float shown_ao(const RayScene& scene, const PosedSurface& surface, std::span<const StandIns::Point> points,
-               float own, const HemispherePatterns& patterns, float offset, std::uint64_t random) {
-  float sum = 0, weights = 0;
+               std::span<const float> own, float least, const HemispherePatterns& patterns, float offset,
+               std::uint64_t random) {
+  float products = 0, squares = 0;
   for (const StandIns::Point& point : points) {
     random = mix_bits(random);
-    const float ao = trace_surface_point(scene, surface, point.at, patterns, offset, random);
-    if (ao < hidden_below) continue;
-    sum += point.weight * ao;
-    weights += point.weight;
+    float rest = trace_surface_point(scene, surface, point.at, patterns, offset, random), unknown = 0;
+    if (rest < hidden_below) continue;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float ao = own[point.at.vertex[i]];
+      if (ao < hidden_below)
+        unknown += point.at.weight[i];
+      else
+        rest -= point.at.weight[i] * ao;
+    }
+    products += point.weight * unknown * rest;
+    squares += point.weight * unknown * unknown;
   }
-  return weights > 0 ? sum / weights : own;
+  return squares > 0 ? std::clamp(products / squares, 0.0f, 1.0f) : least;
 }
 
 // Returns points on the edges of each vertex at a quarter, half and three quarters of their length, and the
@@ -140,8 +151,8 @@ StandIns all_stand_ins(const SkinnedMesh& mesh) {
       // An inner edge belongs to two triangles. Each takes the edge in one direction for this vertex.
       const float edge = length(mesh.position[next] - mesh.position[v]);
       for (const float along : {0.25f, 0.5f, 0.75f})
-        points[v].push_back({{{v, next, last}, {1 - along, along, 0}}, (1 - along) * edge});
-      points[v].push_back({{{v, next, last}, {1 / 3.0f, 1 / 3.0f, 1 / 3.0f}}, size / 3});
+        points[v].push_back({{{v, next, last}, {1 - along, along, 0}}, edge});
+      points[v].push_back({{{v, next, last}, {1 / 3.0f, 1 / 3.0f, 1 / 3.0f}}, size});
     }
   }
   StandIns all;
@@ -153,7 +164,7 @@ StandIns all_stand_ins(const SkinnedMesh& mesh) {
   return all;
 }
 
-// Adds up the weights of each point over the poses in which it is visible and its vertex hidden.
+// Adds up the weights of each point over the poses in which it is visible and its vertex is hidden.
 std::vector<float> count_uses(const SkinnedMesh& mesh, std::span<const Pose> poses, const StandIns& all,
                               std::uint64_t seed) {
   constexpr std::uint32_t rays = 32;
@@ -174,7 +185,7 @@ std::vector<float> count_uses(const SkinnedMesh& mesh, std::span<const Pose> pos
       for (std::uint32_t i = all.first[v]; i < all.first[v + 1]; ++i) {
         random = mix_bits(random);
         if (trace_surface_point(scene, surface, all.points[i].at, patterns, offset, random) >= hidden_below)
-          uses[i] += all.points[i].weight;
+          uses[i] += all.points[i].weight * all.points[i].at.weight[0];
       }
     });
   }
@@ -251,12 +262,16 @@ AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> pose
         for (std::size_t p = range.begin(); p < range.end() && !pace.is_stopped(); ++p) {
           work.pose(mesh, poses[p]);
           const RayScene scene(device, work.position, mesh.triangle);
+          work.ao.resize(targets.vertex_count);
+          const auto random_of = [&](std::size_t v) { return mix_bits(mix_bits(seed + p) ^ v); };
+          for (std::size_t v = 0; v < targets.vertex_count; ++v)
+            work.ao[v] = trace_point(scene, work.position[v], work.normal[v], patterns, unlimited, offset,
+                                     random_of(v));
           std::uint16_t* row = &targets.value[p * targets.vertex_count];
           for (std::size_t v = 0; v < targets.vertex_count; ++v) {
-            const std::uint64_t random = mix_bits(mix_bits(seed + p) ^ v);
-            float ao =
-                trace_point(scene, work.position[v], work.normal[v], patterns, unlimited, offset, random);
-            if (ao < hidden_below) ao = shown_ao(scene, work, stand_ins.of(v), ao, patterns, offset, random);
+            float ao = work.ao[v];
+            if (ao < hidden_below)
+              ao = shown_ao(scene, work, stand_ins.of(v), work.ao, ao, patterns, offset, random_of(v));
             row[v] = std::uint16_t(std::lround(ao * 65535));
           }
           pace.add(1);

@@ -87,7 +87,7 @@ struct SurfacePoint {
 struct StandIns {
   struct Point {
     SurfacePoint at;
-    float weight = 0;  // in the mean over the visible points of a vertex
+    float weight = 0;  // in sums over the visible points of a vertex: the size of the edge or the triangle
   };
   std::vector<std::uint32_t> first;  // index of the first point of each vertex, and the end; empty: no points
   std::vector<Point> points;
@@ -103,11 +103,11 @@ struct StandIns {
 // gets no points. The same seed gives the same points on any number of threads.
 StandIns choose_stand_ins(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint64_t seed);
 
-// Distributes poses over all threads. Builds one BVH for each pose. The target of a hidden vertex is the
-// weighted mean AO of its visible stand-ins, or its own AO if no stand-in is visible. Pass stand-ins for
-// targets that a model is fitted to, and none for the truth that errors are measured against. The same seed
-// gives the same targets on any number of threads. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns
-// false.
+// Distributes poses over all threads. Builds one BVH for each pose. The target of a hidden vertex is the AO
+// with which interpolation comes closest to its visible stand-ins (least squares), or its own AO if none is
+// visible. Pass stand-ins for targets that a model is fitted to, and none for the truth that errors are
+// measured against. The same seed gives the same targets on any number of threads. Throws
+// Failure(NOOK_ERROR_CANCELLED) if progress returns false.
 AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
                              std::uint64_t seed, const Progress& progress = {},
                              const StandIns& stand_ins = {});
