@@ -11,7 +11,7 @@
 
 namespace nook::bake {
 
-// The target of a leg's end, and the orientation of its foot there.
+// Where a leg ends in a pose, and how its foot is oriented there.
 struct AnimalRig::FootPlan {
   Vec3 place;          // metres, rest space
   bool hangs = false;  // true if `place` is in the space of the hip's parent, so that it moves with the body
@@ -23,10 +23,10 @@ struct AnimalRig::FootPlan {
 
 struct AnimalRig::Plan {
   AnimalAct act = AnimalAct::rest;
-  float amount = 1;            // factor of all turns; small at rest
+  float amount = 1;            // factor of all joint turns; small if the animal rests
   Mat3x4 body;                 // motion of the whole body relative to its feet
-  std::vector<FootPlan> foot;  // of each leg
-  float phase = 0;             // of the gait, 0 to 1
+  std::vector<FootPlan> foot;  // one for each leg
+  float phase = 0;             // phase of the gait, 0 to 1
   float gallop = 0;            // bend of the spine that follows the gait, radians
 };
 
@@ -63,8 +63,8 @@ Vec3 lowest_skin(const SkinnedMesh& mesh, std::size_t bone) {
   return count > 0 ? (1 / count) * sum : joint_origin(mesh.bones[bone]);
 }
 
-// Returns the chains of bones with one role. Each chain starts at its first bone and follows the body's tree.
-// At a fork, the longest branch continues the chain, and each other branch starts a new chain.
+// Returns the chains of bones with one of the given roles. Each chain runs from parents to children. At a
+// fork, the longest branch continues the chain, and each other branch starts a new chain.
 std::vector<std::vector<std::size_t>> chains_of(const BodyTree& tree, std::span<const Joint> joints,
                                                 std::initializer_list<JointRole> roles) {
   const auto is_in = [&](std::size_t b) {
@@ -123,7 +123,7 @@ void AnimalRig::find_legs() {
     size_m_ += leg.length_m;
     legs_.push_back(std::move(leg));
   }
-  // Numbers the legs of each side from the front. Gaits use these rows.
+  // Numbers the legs of each side from the front. Gaits use these numbers to choose the phase of a leg.
   for (LegChain& leg : legs_)
     for (const LegChain& other : legs_)
       leg.row += other.left == leg.left && dot(other.end - leg.end, frame_.forward) > 0;
@@ -168,7 +168,7 @@ Step step_at(float phase, float stance) {
   return {-std::cos(std::numbers::pi_v<float> * swing), std::sin(std::numbers::pi_v<float> * swing)};
 }
 
-// Draws a turn of a joint, radians. It is small most of the time and sometimes large.
+// Returns a random angle for a joint, in radians. Most angles are small, but a few are large.
 float heavy_turn(PoseRandom& random, float usual, float most) {
   const float turn = usual * random.normal();
   return std::clamp(turn * std::exp(0.4f * random.normal()), -most, most);
@@ -228,7 +228,7 @@ void AnimalRig::place_feet(Plan& plan, PoseRandom& random) const {
 void AnimalRig::stand(Plan& plan, PoseRandom& random) const {
   for (const LegChain& leg : legs_) {
     Vec3 move = in_body({0.02f * random.normal(), 0, 0.05f * random.normal()});
-    if (random.chance(0.08f)) move.y += random.between(0, 0.08f);  // a resting or stamping leg
+    if (random.chance(0.08f)) move.y += random.between(0, 0.08f);  // the leg rests or stamps
     plan.foot.push_back({leg.end + leg.length_m * move});
   }
 }
@@ -287,7 +287,7 @@ void AnimalRig::leap(Plan& plan, PoseRandom& random) const {
 
 // Makes kicks, crouches, and steps to any place that the legs can reach from a standing body.
 void AnimalRig::move_feet(Plan& plan, PoseRandom& random) const {
-  const bool tucked = random.chance(0.25f);  // jumps and falls
+  const bool tucked = random.chance(0.25f);  // all legs are drawn up, as in jumps and falls
   const float curl = random.between(15, 90) * degree;
   for (const LegChain& leg : legs_) {
     const float up = tucked                ? random.between(0.1f, 0.6f)
@@ -314,8 +314,8 @@ void AnimalRig::swing_legs(Plan& plan, PoseRandom& random) const {
 namespace {
 
 struct Bends {
-  std::vector<Vec3> axis;    // of each joint after the hip; a turn about it bends the leg further
-  std::vector<float> angle;  // of the bend at rest, radians
+  std::vector<Vec3> axis;    // for each joint after the hip; a positive turn about it bends the leg further
+  std::vector<float> angle;  // for each joint after the hip, the bend at rest, radians
 };
 
 // A joint bends in the direction of its bend at rest. A straight joint bends like a knee: the lower part
@@ -362,8 +362,8 @@ std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
   std::vector<Vec3> points;
   for (const std::size_t b : leg.bones) points.push_back(origin(b));
   points.push_back(leg.end);
-  // A shoulder blade is a short bone at the top of a leg with several bones. It makes a share of the leg's
-  // swing.
+  // A shoulder blade is a short bone at the top of a leg with several bones. It makes a part of the turn
+  // when the leg swings.
   constexpr float girdle_share = 0.25f;
   const bool girdle = leg.bones.size() >= 3 && length(points[1] - points[0]) < 0.3f * leg.length_m;
   Mat3x4 first;
@@ -375,7 +375,7 @@ std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
   const std::span<const Vec3> own = std::span(points).subspan(girdle ? 1 : 0);
   const Bends bends = bends_of(own, frame_.left);
   const float wanted = length(place - own[0]);
-  float low = most_stretch, high = most_flexion;  // the flexions with the longest and the shortest leg
+  float low = most_stretch, high = most_flexion;  // flexions at which the leg is longest and shortest
   for (int i = 0; i < halvings; ++i) {
     const float middle = 0.5f * (low + high);
     (length(end_of(own, flexed(own, bends, middle, bend_share)) - own[0]) > wanted ? low : high) = middle;
@@ -409,7 +409,7 @@ void AnimalRig::bend_chains(const Plan& plan, std::vector<Mat3x4>& local, PoseRa
                   a * snake * 10 * degree * random.normal(), a * 5 * degree * random.normal()}),
          in_body({a * snake * 5 * degree * random.normal(), a * snake * 12 * degree * random.normal(), 0}),
          a * 3 * degree);
-  // Heads look around, graze and are raised. They stay level while the neck moves. A standing body often
+  // Heads look around, graze or are raised. A head stays level while the neck moves. A standing body often
   // moves only its head.
   const float h = plan.act == AnimalAct::rest && random.chance(0.5f) ? 1 : a;
   const float kind = random.unit();

@@ -20,21 +20,22 @@
 namespace nook::bake {
 namespace {
 
-// Turns the joints of a rig by a plan. Turns are in rest-space axes about each joint's origin, parents first.
+// Makes poses of a rig from body plans. A joint turns about its origin, in the axes of rest space. Parents
+// are turned before their children.
 
 class PlannedRig {
  public:
   // Keeps a reference to the mesh.
   PlannedRig(const SkinnedMesh& mesh, std::vector<Joint> joints);
 
-  // Lets a hand reach for a place on the body or for the other hand. Shadows by hands and on hands depend on
-  // what is near the hands, and freely swinging arms rarely bring hands near the body. Tries several arm
-  // poses and takes the one that comes nearest.
+  // Lets a hand reach for a place on the body or for the other hand. Tries several arm poses and takes the
+  // one in which the hand is nearest to the place. This is needed because hands cast and receive strong
+  // shadows only near other parts, and freely swinging arms rarely bring them there.
   void reach(BodyPlan& plan, PoseRandom& random) const;
 
   Pose pose(const BodyPlan& plan, PoseRandom& random) const;
 
-  // Returns true if a clavicle makes a share of its arm's swing.
+  // Returns true if the rig has a clavicle that turns together with its arm when the arm swings.
   bool swings_shoulders() const {
     return std::find(carries_arm_.begin(), carries_arm_.end(), 1) != carries_arm_.end();
   }
@@ -67,8 +68,8 @@ Vec3 place_in(const Pose& pose, const BodyPoint& place) {
   return transform_point(pose[std::size_t(place.bone)], place.point);
 }
 
-// Returns the direction of a limb's joint in the motion-capture pose, in the axes of PriorLimbs. Returns zero
-// if there is none.
+// Returns the direction that the motion-capture pose gives to a limb's joint, in the axes of PriorLimbs.
+// Returns zero if it gives none.
 Vec3 wished(const BodyPlan& plan, const Joint& joint) {
   const PriorLimbs& limbs = plan.motion.limbs[joint.side == Side::right ? 1 : 0];
   switch (joint.role) {
@@ -94,8 +95,8 @@ std::size_t count_of(std::span<const Joint> joints, JointRole role) {
       std::count_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.role == role; }));
 }
 
-// Returns true for clavicles that start near the shoulder instead of near the breastbone. Such a clavicle
-// swings the arm as much as the upper arm's own joint does.
+// For each bone, returns true if it is a clavicle that starts near the shoulder instead of near the
+// breastbone. Such a clavicle swings the arm as much as the upper arm's own joint does.
 std::vector<char> shoulders_of(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                                const BodyFrame& frame) {
   // Share of the distance from the middle of the body to the upper arm. Clavicles of people start at 0.1 to
@@ -145,7 +146,7 @@ void PlannedRig::reach(BodyPlan& plan, PoseRandom& random) const {
   if (joints_[std::size_t(target.bone)].side == (side ? Side::right : Side::left) &&
       is_arm(joints_[std::size_t(target.bone)].role))
     return;
-  const PoseRandom noise = random;  // all tries must continue with the same random numbers
+  const PoseRandom noise = random;  // so that each try uses the same random numbers for the rest of the body
   float nearest = INFINITY;
   LimbPlan best = plan.limb[side];
   for (int t = 0; t < tries; ++t) {
@@ -221,7 +222,7 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
       return -limb.toe * left;
     case JointRole::upper_arm:
     case JointRole::forearm:
-      return {};  // placed by direction, see place_arms
+      return {};  // place_arms sets its direction
     case JointRole::pelvis:
       return {};
     case JointRole::prop:
@@ -242,8 +243,8 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
   return {};
 }
 
-// Points limbs in the directions of the motion-capture pose, relative to the trunk. The result does not
-// depend on the rest pose.
+// Points the limbs in the directions that they have in the motion-capture pose, relative to the trunk. The
+// rest pose of the limbs does not matter.
 void PlannedRig::place_limbs_of_motion(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
   if (!plan.arms_of_motion && !plan.legs_of_motion) return;
   for (const std::uint32_t b : tree_.order) {
@@ -274,7 +275,7 @@ Vec3 PlannedRig::arm_direction(const BodyPlan& plan, std::size_t arm) const {
   return normalised(in_body({mirror * direction.x, direction.y, direction.z}));
 }
 
-// A clavicle that carries the arm makes a share of the arm's swing.
+// When an arm swings, turns the clavicle that carries it by a part of the angle.
 void PlannedRig::swing_shoulders(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
   for (std::size_t arm = 0; arm < joints_.size(); ++arm) {
     const std::int32_t shoulder = tree_.parent[arm];
@@ -288,7 +289,7 @@ void PlannedRig::swing_shoulders(const BodyPlan& plan, std::vector<Mat3x4>& loca
   }
 }
 
-// Points upper arms and forearms in the directions of the plan. The result does not depend on the rest pose.
+// Points upper arms and forearms in the directions of the plan. The rest pose of the arms does not matter.
 void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
   const auto& [left, up, forward] = frame_;
   for (std::size_t b = 0; b < joints_.size(); ++b) {
@@ -335,8 +336,8 @@ std::vector<Pose> poses_of_person(const SkinnedMesh& mesh, std::span<const float
     // touch but must not intersect.
     constexpr int tries = 12;
     constexpr float allowed = 0.6f, reaching = 0.7f;
-    // of_motion is the share of poses that follow motion capture. Of these, a share of other_part has arms
-    // from the plan instead, and the same share has legs from the plan.
+    // A share `of_motion` of the poses follows motion capture. Of these poses, a share `other_part` takes
+    // only the arms from the plan, and another share `other_part` takes only the legs from the plan.
     constexpr float of_motion = 0.5f, other_part = 0.2f;
     // Share of all poses in which the hands are joined. Such hands may intersect each other.
     constexpr float joined_share = 0.15f;
@@ -372,8 +373,8 @@ std::vector<Pose> poses_of_person(const SkinnedMesh& mesh, std::span<const float
   return poses;
 }
 
-// Returns the share of edges that a pose may tear. The most extreme poses of clips tear about twice the
-// clips' mean.
+// Returns the share of edges that a pose may tear. The most extreme poses of clips tear about twice as many
+// edges as the mean pose of the clips.
 float allowed_tears(double torn_by_clips) {
   return std::max(0.0005f, 2 * float(torn_by_clips));
 }
@@ -388,7 +389,8 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
   tbb::parallel_for(std::size_t(0), count, [&](std::size_t i) {
     PoseRandom random(mix_bits(seed ^ mix_bits(i)));
     constexpr int tries = 12;
-    // Legs of animals stand closer than legs of people, and walks let them brush each other.
+    // The allowed depth is larger than for people, because the legs of animals are closer together and touch
+    // in a walk.
     constexpr float allowed = 1.0f;
     float best = 0;
     std::vector<Vec3> posed;
@@ -396,7 +398,8 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
       Pose pose = rig.pose(random_act(random), random);
       skin_positions(mesh, pose, posed);
       const float torn = float(count_torn(mesh, edges, posed)) / std::max(1.0f, float(edges.size()));
-      // Depth and tears relative to their limits; 1 is at a limit.
+      // The depth or the torn share, relative to its limit, whichever is larger. Up to 1, the pose is
+      // allowed.
       const float beyond = std::max(collision.depth(pose) / allowed, torn / allowed_tears(torn_by_clips));
       if (attempt == 0 || beyond < best) {
         best = beyond;

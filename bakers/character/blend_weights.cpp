@@ -16,16 +16,16 @@
 namespace nook::bake {
 namespace {
 
-// The error, measured against ray tracing of a body on the ground with neighbours, hardly changes for a ridge
-// from 0.001 to 0.01, and for a position weight from 0 to 2 per square metre.
+// We measured the error against ray tracing, for a body on the ground with neighbours. The error is nearly
+// the same for any ridge from 0.001 to 0.01, and for any position weight from 0 to 2 per square metre.
 constexpr double ridge = 3e-3;
 constexpr double position_weight_per_m2 = 1;
-// The weight of the spheres' term. A weight of 3 lowers the error of neighbours by a fifth, and 30 hardly
-// lowers it further.
+// The weight of the spheres in the loss. A weight of 3 lowers the error of AO by neighbours by a fifth. A
+// weight of 30 hardly lowers it further.
 constexpr double sphere_weight = 10;
 constexpr std::size_t spheres_per_pose = 16;
-// In radii of the body. The nearest spheres are a hand's breadth away. Seen from the farthest ones, the body
-// covers only a small angle.
+// Lengths in radii of the body. The nearest spheres are a hand's breadth away. From the farthest spheres, the
+// body looks small.
 constexpr float nearest_sphere = 0.15f, farthest_sphere = 4, sphere_radius = 0.15f;
 // This is many times the number of entries per vertex, so that the weights are well determined.
 constexpr std::size_t max_poses = 64;
@@ -129,8 +129,8 @@ Equations equations_of(const std::vector<PosedBody>& bodies, std::size_t vertex,
     wanted << double(own.normal.x), double(own.normal.y), double(own.normal.z), 0, 0, 0;
     e.gram += rows.transpose() * rows;
     e.right += rows.transpose() * wanted;
-    // In a pose, all vertices use the same spheres relative to their own position, so that neighbouring
-    // vertices get similar weights.
+    // In one pose, the spheres have the same offsets from every vertex, so that neighbouring vertices get
+    // similar weights.
     Random random(b);
     add_spheres(e, body, vertex, key_point, body_radius, random, share);
   }
@@ -159,7 +159,7 @@ Eigen::VectorXd rounded_weights(const Equations& e) {
     solve_free(e, free, weight);
     weight[free - 1] = double(decode_blend(encode_blend(float(weight[free - 1]))));
   }
-  // All other weights are multiples of the step, so this weight is one too.
+  // All other weights are multiples of the quantisation step, so this weight is a multiple too.
   weight[0] = 1 - weight.tail(weight.size() - 1).sum();
   return weight;
 }

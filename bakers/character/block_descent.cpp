@@ -9,12 +9,12 @@
 namespace nook::bake {
 namespace {
 
-// Poses of one task. Each task has its own sums, which are added in order afterwards, so that threads do not
-// change the bits.
+// Number of poses in one task. Each task has its own sums. They are added in order afterwards, so that the
+// number of threads does not change the bits.
 constexpr std::size_t block_poses = 32;
 
-// Returns the quadratic form of a block's shadows (count x padded) without its constant. Replaces the values
-// in `shadow` by the gradient of the form with respect to them.
+// Returns the quadratic form of the shadows of one block (count x padded), without the constant term.
+// Overwrites `shadow` with the gradient of the form with respect to the shadows.
 double quadratic_form(const CachedObjective& cache, std::size_t first, std::size_t count, float* shadow) {
   const auto rows = Eigen::Index(count);
   Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, cache.a.rows());

@@ -88,8 +88,8 @@ TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const
   return share;
 }
 
-// Half of the weight is equal for all vertices, like in the reported mse. The other half is proportional to
-// area, like in what the eye sees. The paper weights all vertices equally (slide 25).
+// Half of the weight is equal for all vertices, as in the reported mse. The other half is proportional to the
+// vertex's area, because large areas are more visible. The paper weights all vertices equally (slide 25).
 std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
   if (fit == FitMethod::paper) return std::vector<float>(area.size(), 1.0f);
   double mean = 0;
@@ -136,8 +136,8 @@ class Fit {
     return measure_fit(state, set_, first, set_.poses.size(), area_).mse;
   }
 
-  // Adds a point to the curve, and keeps the state if it is the best so far. Returns true if the error fell
-  // by at least the share least_gain.
+  // Adds a point to the curve, and keeps the state if it is the best so far. Returns true if the held-out
+  // error is below (1 - least_gain) times the best error before the call.
   bool measure(double least_gain = 0) {
     const std::size_t fitted = set_.fitted();
     const double train = measure_fit(state_, set_, 0, fitted, area_).mse;
@@ -240,8 +240,8 @@ float learned_gamma(const TrainingSet& set, const std::vector<float>& area, cons
 // The ray-traced data of a fit.
 struct TracedPoses {
   TrainingSet set;
-  TrainingSet precise;  // a share of the fitted poses with little noise
-  AoTargets rest;       // of the rest pose
+  TrainingSet precise;  // some of the fitted poses, traced with more rays
+  AoTargets rest;       // targets of the rest pose
 };
 
 // Traces the targets. Writes their noise and the duration to the report.
@@ -252,7 +252,7 @@ TracedPoses trace_poses(const SkinnedMesh& mesh, std::span<const Pose> poses, co
   TrainingSet& set = traced.set;
   set.poses.assign(poses.begin(), poses.end());
   set.held_out = hold_out(set.poses);
-  // The paper traces the vertices themselves.
+  // The paper's fit has no stand-ins: it traces AO at the vertices themselves.
   const StandIns stand_ins =
       settings.fit == FitMethod::paper ? StandIns() : choose_stand_ins(mesh, set.poses, settings.seed);
   set.targets = trace_character_ao(mesh, set.poses, settings.rays, settings.seed,
@@ -321,7 +321,7 @@ Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<cons
   return start;
 }
 
-// Levels of detail are made and measured on a spread of the training poses.
+// Makes and measures levels of detail, on at most 120 evenly picked training poses.
 void add_levels(CharacterModel& model, std::span<const Pose> poses) {
   constexpr std::size_t max_poses = 120, min_poses = 4;
   std::vector<Pose> spread;

@@ -145,9 +145,9 @@ Eigen::MatrixXf value_of(const FrameTable<Number>& table, std::size_t frames) {
   return outer_product(modes, weights);
 }
 
-// For each bone, returns the mean position of the points that it carries, and a radius. An error of the
-// rotation moves a point at this distance from the mean as far as it moves the carried points on average. The
-// radius is the rms distance divided by sqrt(3).
+// For each bone, returns the mean position of its points, and a radius. The radius is the rms distance of the
+// points from the mean, divided by sqrt(3). If the bone's rotation has an error, a point at the radius moves
+// as far as the bone's points move on average.
 std::vector<BoneSpan> bone_spans(const SkinnedMesh& mesh) {
   // Metres. Used for bones without vertices, and if all vertices of a bone are at one position.
   constexpr float least_radius = 0.02f;
@@ -223,15 +223,15 @@ double clamped_mse(const Eigen::MatrixXf& values, const Eigen::MatrixXf& product
   return sum / double(values.size());
 }
 
-// Returns the mse of the product against the truth behind noisy values. A fit of `count` modes also fits a
-// part of the noise, in proportion to its number of free parameters.
+// Estimates the mse of the product against the values without their noise. A fit of `count` modes also fits a
+// part of the noise, in proportion to the number of its free parameters.
 double true_mse(double residual_mse, double noise_mse, std::size_t count, double rows, double columns) {
   const double k = double(count), taken = std::min(k * (rows + columns - k) / (rows * columns), 1.0);
   return std::max(residual_mse - noise_mse * (1 - 2 * taken), 0.0);
 }
 
-// Returns the smallest number of modes, a multiple of `step`, whose error is within the bound. If there is
-// none, returns the number with the smallest error, because more modes would only fit noise.
+// Returns the smallest multiple of `step` modes with an error of at most `max_mse`. If there is none, returns
+// the number of modes with the smallest error, because more modes would only fit noise.
 std::size_t modes_for(const LowRank& low, double size, double max_mse, double noise_mse, std::size_t step,
                       double rows, double columns, std::vector<double>* curve) {
   double left = low.total;
@@ -251,7 +251,7 @@ std::size_t modes_for(const LowRank& low, double size, double max_mse, double no
   return found ? found : best;
 }
 
-// Returns how many modes fit into a byte budget. A mode has a scale, a weight per frame and a number per row.
+// Returns how many modes fit into a byte budget. A mode has a scale, a weight per frame and a value per row.
 std::size_t affordable(double bytes, double frames, double rows, double number_bytes) {
   const double each = 4 + 2 * frames + number_bytes * rows;
   return std::size_t(std::max(bytes / each, 0.0));
@@ -301,7 +301,7 @@ ClipSet make_clip_set(const SkinnedMesh& mesh, const CharacterModel& model, cons
   const std::vector<BoneSpan> spans = bone_spans(mesh);
   set.bones.assign(spans.begin(), spans.end());
   const double rows = double(spans.size() * pose_rows_per_bone);
-  // The head, names, bones and container come first. Poses get at most half of the rest.
+  // Subtracts the bytes of the header, names, bones and container. Poses get at most half of the rest.
   double budget = settings.max_bytes * vertices * count - 400 - 16 * double(spans.size());
   for (const ClipRange& clip : frames.clips) budget -= double(clip.name.size() + 8);
   const Eigen::MatrixXf poses = pose_values(spans, frames.poses);

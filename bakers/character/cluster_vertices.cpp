@@ -20,7 +20,7 @@ struct Cluster {
   Vec3 position, normal;
   std::vector<BoneWeight> weights;
   std::set<std::uint32_t> neighbours;
-  std::uint32_t version = 0;  // outdated queue entries carry an older one
+  std::uint32_t version = 0;  // a queue entry with an older version is outdated
   bool alive = true;
 };
 
@@ -216,7 +216,7 @@ class ClusterGraph {
   float position_scale2_, normal_scale2_, weight_scale2_;
   std::size_t alive_;
   std::vector<Cluster> clusters_;
-  std::vector<std::uint32_t> parent_;  // the cluster that took this one over, or itself
+  std::vector<std::uint32_t> parent_;  // the cluster that this one was merged into, or itself
   std::priority_queue<Collapse> queue_;
 };
 

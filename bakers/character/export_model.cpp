@@ -272,9 +272,9 @@ std::vector<std::uint32_t> first_file_vertices(const SkinnedMesh& mesh) {
   return first;
 }
 
-// Adds the vertices that have other vertices close to them, in the order of their cells. Two cells are wider
-// than two steps of a stored rest position, so positions alone can distinguish vertices that are farther
-// apart.
+// Adds the vertices that have other vertices close to them, in the order of their grid cells. Close means in
+// the same cell or in an adjacent one. Other vertices are at least two steps of a stored rest position away,
+// so the stored positions alone distinguish them.
 void add_close_vertices(const ImportedCharacter& character, BindData& out) {
   const SkinnedMesh& mesh = character.mesh;
   const std::vector<Neighbourhood> around = neighbourhoods(mesh, 2.0 / 65535);

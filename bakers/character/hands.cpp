@@ -166,7 +166,7 @@ std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> 
     const std::uint32_t b = tree.order[i];
     if (joints[b].role != JointRole::finger && joints[b].role != JointRole::thumb) continue;
     if (reach[b] > longest_finger * length(high - low)) laden[b] = 1;
-    // A parent joint of a finger also carries the load of the joints below it.
+    // If a joint of a finger carries an object, the finger's joints above it carry the object too.
     const std::int32_t p = tree.parent[b];
     if (laden[b] && p >= 0) laden[std::size_t(p)] = joints[std::size_t(p)].role == joints[b].role;
   }

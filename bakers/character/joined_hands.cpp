@@ -223,7 +223,7 @@ void JoinedHands::close_fingers(const Arm& arm, float curl, std::vector<JointMot
 }
 
 void JoinedHands::join(std::vector<JointMotion>& motions, bool with_fingers, Random& random) const {
-  // Clavicles that carry the upper arms are not turned.
+  // Clavicles that carry the upper arms keep their rest pose.
   for (const Arm& arm : arms_) motions[std::size_t(arm.upper)].turn = {};
   const Pose pose = pose_of(mesh_, tree_, motions);
   constexpr int tries = 12;

@@ -153,7 +153,7 @@ std::vector<std::string> bones_without_role(const SkinnedMesh& mesh, std::span<c
   return names;
 }
 
-// Sums over visible vertex-poses.
+// Sums over all pairs of a vertex and a pose in which the vertex is visible.
 struct Sums {
   double model = 0, static_bake = 0, oracle = 0, weight = 0;
 
@@ -172,7 +172,7 @@ double truth_at(const AoTargets& targets, std::size_t pose, std::size_t vertex) 
   return double(targets.row(pose)[vertex]) * double(AoTargets::scale);
 }
 
-// The AO of the model and of both halves of the truth in the judged poses.
+// The model's AO in the judged poses, and two independent ray-traced AOs (halves) of the same poses.
 struct Traced {
   AoTargets half[2];
   std::vector<float> ao;  // poses x vertices
@@ -201,8 +201,8 @@ std::vector<float> model_ao(const CharacterModel& model, std::span<const Pose> p
   return ao;
 }
 
-// Returns the sums of one vertex over some poses. The oracle also has two independent means, one for each
-// half.
+// Returns the sums of one vertex over some poses. The oracle predicts the mean AO of the vertex. Each half
+// has its own mean, so that their noise is independent.
 Sums sums_of(const Traced& traced, const CharacterModel& model, std::size_t v,
              const std::vector<std::size_t>& poses) {
   Sums sums;

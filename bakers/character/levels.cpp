@@ -61,8 +61,8 @@ ProxySphere merge(const ProxySphere& a, const ProxySphere& b) {
   return both;
 }
 
-// Merges the pair with the smallest cost until `target` spheres remain. Near pairs cost less than distant
-// pairs, and small spheres less than large ones. Spheres of different bones are never merged.
+// Repeatedly merges the pair with the smallest cost, until `target` spheres remain. Near pairs cost less than
+// distant pairs, and small spheres less than large ones. Spheres of different bones are never merged.
 Vector<ProxySphere> merge_spheres(const CharacterModel& model, std::size_t target) {
   Vector<ProxySphere> spheres(model.spheres.begin(), model.spheres.end());
   while (spheres.size() > target) {
@@ -87,7 +87,7 @@ Vector<ProxySphere> merge_spheres(const CharacterModel& model, std::size_t targe
 }
 
 struct Line {
-  float scale = 0, offset = 0, residual = 0;  // mean square
+  float scale = 0, offset = 0, residual = 0;  // `residual` is a mean square
 };
 
 // Holds means and centred second moments of the even poses, so that a line through any pair takes few

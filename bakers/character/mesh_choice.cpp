@@ -5,7 +5,7 @@
 namespace nook::bake {
 namespace {
 
-// The order of names, and names that are given twice, choose nothing.
+// Sorts the names and removes repeated ones, because neither their order nor repetition changes the choice.
 std::vector<std::string> sorted_names(std::vector<std::string> names) {
   std::sort(names.begin(), names.end());
   names.erase(std::unique(names.begin(), names.end()), names.end());

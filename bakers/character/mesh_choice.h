@@ -7,7 +7,8 @@
 
 namespace nook::bake {
 
-// Adds the choice to a recipe; nothing if all meshes are in. stored_meshes (recipe.h) reads it back.
+// Adds the choice to a recipe. Adds nothing if the bake reads all meshes. stored_meshes (recipe.h) reads the
+// choice.
 void store_meshes(nlohmann::ordered_json& recipe, const MeshSelection& meshes);
 
 }  // namespace nook::bake

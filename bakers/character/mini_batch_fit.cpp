@@ -36,8 +36,9 @@ class Adam {
   std::vector<float> first_, second_;
 };
 
-// Learning rates in the parameters' own units: metres, log radius, unit normals, roots. A step changes each
-// parameter by about its rate. We chose the rates by the scale of the parameters, without a search.
+// Learning rates in the units of the parameters: metres, log radius, components of unit normals, square roots
+// of weights. A step changes each parameter by about its rate. We chose each rate from the typical size of
+// its parameter, without a search.
 constexpr float sphere_rate[LayerStructure::sphere_parameters] = {2e-3f, 2e-3f, 2e-3f, 1e-2f};
 constexpr float key_point_rate[LayerStructure::key_point_parameters] = {
     2e-3f, 2e-3f, 2e-3f, 2e-2f, 2e-2f, 2e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f};

@@ -48,8 +48,8 @@ float uniform_scale(const Mat3x4& a) {
   return length({a.m[0], a.m[4], a.m[8]});
 }
 
-// The derivatives of a key point's shadow with respect to the sum of its terms and to the root of the
-// saturation.
+// The derivatives of a key point's shadow: with respect to the sum of the terms of all spheres, and with
+// respect to the square root of the saturation.
 struct ShadowSlope {
   float by_sum, by_root;
 };

@@ -13,11 +13,11 @@ namespace nook::bake {
 namespace {
 
 constexpr double old_constant_poses = 4;
-// The prior of the old scale has the weight scale_ridge * (number of poses + old_scale_poses). The unit of
-// scale_ridge is a squared shadow.
+// The prior that keeps the scale near its old value has the weight scale_ridge * (number of poses +
+// old_scale_poses). `scale_ridge` has the unit of a squared shadow.
 constexpr double scale_ridge = 2e-3, old_scale_poses = 20;
 constexpr double least_scale = 0.05, most_scale = 4;
-// Targets within this margin of black or white count as black or white. One ray of 64 makes this difference.
+// Targets within this margin of black or white count as black or white. The margin is one ray of 64.
 constexpr double clamped_margin = 1.0 / 64;
 
 // One vertex in one pose.
@@ -37,8 +37,8 @@ bool is_hidden(const Sample& sample, const Line& line) {
   return (ao <= 0 && sample.truth <= clamped_margin) || (ao >= 1 && sample.truth >= 1 - clamped_margin);
 }
 
-// Fits a line over the shadow, centred at the mean shadow, by least squares over the samples that clamping
-// does not hide.
+// Fits the darkness as a line over the shadow, by least squares. Leaves out the samples whose error clamping
+// hides under the line `now`.
 Line line_of(std::span<const Sample> samples, double old_bias, double mean, const Line& now) {
   const double old_level = old_bias + mean;  // the darkness of the old line at the mean
   double count = old_constant_poses, x1 = 0, y1 = old_constant_poses * old_level, xx = 0, xy = 0;

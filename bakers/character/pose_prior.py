@@ -3,12 +3,13 @@
 
     bakers/character/pose_prior.py FOLDER
 
-FOLDER holds BVH files of the CMU Graphics Lab Motion Capture Database (http://mocap.cs.cmu.edu, free for all uses,
-created with funding from NSF EIA-0196217) on the skeleton of Character Creator, whose joints are named CC_Base_*. The
-table has the centres of clusters of poses and the spread round them, and no pose of the database.
+FOLDER contains BVH files of the CMU Graphics Lab Motion Capture Database (http://mocap.cs.cmu.edu, free for all
+uses, created with funding from NSF EIA-0196217). The files must use the skeleton of Character Creator, whose joints
+are named CC_Base_*. The table contains the centres of clusters of poses, and how poses spread around the centres. It
+does not contain any pose of the database.
 
-A pose is described independently of the skeleton: the turns of chest and head, and the directions of limbs. Axes are left, up, forward; the trunk's axes are for a person who stands
-upright.
+A pose is described by the turns of chest and head and the directions of the limbs, so that it fits any skeleton. The
+axes are left, up and forward. The up axes of pelvis, chest and head point upwards when a person stands upright.
 """
 import pathlib
 import sys
@@ -18,7 +19,7 @@ import numpy as np
 SAMPLES_PER_SECOND = 8
 CENTRES = 64
 FACTORS = 16
-SCALE = 100  # a table's unit is a hundredth: of a radian, or of a unit vector's length
+SCALE = 100  # table values are in hundredths of a radian, or of the length of a unit vector
 
 LEFT, UP, FORWARD = np.eye(3)
 LIMBS = [("Upperarm", "Forearm", "chest"), ("Forearm", "Hand", "chest"), ("Hand", "Mid1", "chest"),
@@ -26,7 +27,7 @@ LIMBS = [("Upperarm", "Forearm", "chest"), ("Forearm", "Hand", "chest"), ("Hand"
 
 
 class Motion:
-    """World rotations and positions of the joints of a BVH file, by name without the prefix."""
+    """World rotations and positions of the joints of a BVH file. Keys are joint names without the prefix."""
 
     def __init__(self, path):
         lines = iter(path.read_text().splitlines())
@@ -88,7 +89,7 @@ def unit(v):
 
 
 def lefts(motion):
-    """World directions to the left of pelvis, chest and head."""
+    """For pelvis, chest and head, returns the world direction that points to the person's left."""
     p = motion.position
     return {"pelvis": unit(p["L_Thigh"] - p["R_Thigh"]), "chest": unit(p["L_Clavicle"] - p["R_Clavicle"]),
             "head": unit(p["L_Eye"] - p["R_Eye"])}
@@ -98,13 +99,13 @@ JOINT_OF = {"pelvis": "Hip", "chest": "Spine02", "head": "Head"}
 
 
 def frame(left, up):
-    """Rotations whose columns are left, up and forward."""
+    """Returns rotations whose columns are the axes left, up and forward."""
     up = unit(up - np.sum(up * left, -1, keepdims=True) * left)
     return np.stack([left, up, np.cross(left, up)], -1)
 
 
 def turn(matrix):
-    """Axis times angle."""
+    """Converts rotation matrices to axis times angle."""
     cosine = np.clip((np.trace(matrix, axis1=1, axis2=2) - 1) / 2, -1, 1)
     angle = np.arccos(cosine)
     axis = np.stack([matrix[:, 2, 1] - matrix[:, 1, 2], matrix[:, 0, 2] - matrix[:, 2, 0],
@@ -127,7 +128,7 @@ def features(motion, upright):
 def k_means(points, count, random):
     centres = [points[0]]
     distance = np.full(len(points), np.inf)
-    for _ in range(count - 1):  # drawn by the squared distance, so that rare poses have a centre (k-means++)
+    for _ in range(count - 1):  # k-means++: far points are likelier, so rare poses get a centre
         distance = np.minimum(distance, np.sum((points - centres[-1])**2, 1))
         centres.append(points[random.choice(len(points), p=distance / distance.sum())])
     centres = np.array(centres)
@@ -140,7 +141,8 @@ def k_means(points, count, random):
 def main():
     motions = {p.stem: Motion(p) for p in sorted(pathlib.Path(sys.argv[1]).glob("*.bvh"))}
     walks = [m for name, m in motions.items() if name.startswith("007") or name in ("002_01", "002_02")]
-    # A person who walks stands upright on average: the mean of the world's up in a joint's axes.
+    # Finds the upright direction in the axes of each joint. A walking person is upright on average, so this is the
+    # mean of the world's up over walks.
     upright = {part: unit(np.mean([np.einsum("tji,j->ti", m.rotation[joint], UP).mean(0) for m in walks], 0))
                for part, joint in JOINT_OF.items()}
     points = np.concatenate([features(m, upright) for m in motions.values()])
@@ -151,7 +153,8 @@ def main():
     factors = (vectors[:, order] * np.sqrt(values[order])).T
     print(f"{len(points)} poses of {len(motions)} motions; the centres leave {rest.var() / points.var():.2f} of the "
           f"variance, and the factors hold {values[order].sum() / values.sum():.2f} of that")
-    # A compromise between equal shares and the numbers of poses, because most poses stand and walk.
+    # A centre's share is the square root of its number of poses. Most poses stand or walk, so without the square
+    # root, other poses would be rare.
     write(centres, factors, np.sqrt(np.bincount(nearest, minlength=CENTRES)), len(points), len(motions))
 
 

@@ -68,8 +68,8 @@ std::vector<std::size_t> clips_by_name(const ImportedCharacter& character);
 // Returns the share of edges that the character's clips tear (torn_edges.h), or 0 if there are no clips.
 double torn_by_clips(const ImportedCharacter& character);
 
-// Makes automatic poses with the recipe's rig file. They depend only on the rig. The ranges of clips come in
-// through pose_variants.h.
+// Makes automatic poses with the recipe's rig file. They depend on the mesh and its rig.
+// Clips change only how many edges a pose may tear (torn_by_clips).
 std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Recipe& recipe, std::size_t count,
                                   std::uint64_t seed);
 

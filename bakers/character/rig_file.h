@@ -9,10 +9,11 @@
 
 namespace nook::bake {
 
-// {"bones": {"IKBackLeg.L": {"role": "foot", "side": "left", "limb": 2, "parent": "BackLowerLeg.L"}}} Every
-// entry of a bone is optional. "parent": null makes the bone a root. Fails with INVALID_ARGUMENT for text
-// that is not such an object, and for unknown keys, roles and sides. Also fails for bone names that do not
-// exist in the mesh or exist twice, and for parents that form a cycle.
+// {"bones": {"IKBackLeg.L": {"role": "foot", "side": "left", "limb": 2, "parent": "BackLowerLeg.L"}}}
+//
+// Every entry of a bone is optional. "parent": null makes the bone a root. Fails with INVALID_ARGUMENT for
+// text that is not such an object, and for unknown keys, roles and sides. Also fails for bone names that do
+// not exist in the mesh or exist twice, and for parents that form a cycle.
 RigCorrections read_rig(const SkinnedMesh& mesh, std::string_view text);
 
 // Returns the corrections as one line of the same JSON, or an empty string if there are none.

@@ -306,8 +306,8 @@ BodySides body_sides(const SkinnedMesh& mesh, std::span<const std::int32_t> pare
   for (const Vec3 p : mesh.position) all.add(p);
   const Vec3 mean = count > 0 ? (1 / count) * sum : Vec3{}, centre = 0.5f * (all.low + all.high);
   BodySides best;
-  // The number of pairs is compared first. For example, the joints of a snake along x have no pairs across x,
-  // and lie in a plane across z.
+  // Compares the number of pairs first, and then the number of pairs and middle bones together. For example,
+  // the joints of a snake along x have no pairs across x, and they all lie in the middle across z.
   std::pair<int, int> most{-1, -1};
   for (const bool x : {true, false})
     for (const float middle : {x ? mean.x : mean.z, 0.0f, x ? centre.x : centre.z}) {

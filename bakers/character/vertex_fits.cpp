@@ -87,9 +87,9 @@ CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& me
 
 namespace {
 
-// Weight, in poses, of the two observations that are known for every vertex. Traced observations have noise
-// from their rays, and depend on more than AO. About ten poses with different AO outweigh the two known
-// observations.
+// Weight of each of the two known observations of a vertex; a traced pose has the weight 1. Traced
+// observations are noisy, and they do not depend on AO alone. About ten poses with different AO outweigh the
+// known observations.
 constexpr double known_weight = 0.1;
 
 Mat3x4 blended_bones(const SkinWeights& weights, const Pose& pose) {
