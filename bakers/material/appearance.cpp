@@ -30,21 +30,22 @@ Place place_of(std::uint64_t value, std::uint64_t seed, std::uint32_t sums) {
   return {std::uint32_t((bits >> 32) % sums), bits & 1u ? 1.0f : -1.0f};
 }
 
-// Adds sign * values to the sums of all texels of a raw image, x * height + y, in the order y * width + x.
+// Adds the values of a raw image, times the sign, to one sum per texel. A texel has the index x * height + y
+// in the image, and y * width + x in `sums`.
 void add_image(const float* image, std::uint32_t width, std::uint32_t height, Place place, Matrix& sums) {
   for (std::uint32_t x = 0; x < width; ++x)
     for (std::uint32_t y = 0; y < height; ++y)
       sums(Eigen::Index(y) * width + x, place.sum) += place.sign * image[std::size_t(x) * height + y];
 }
 
-// `images` has all views of the first row, then of the next row, one image after another.
+// `images` contains the images of all views for the first row, then for the next row.
 Matrix sums_of(const std::vector<float>& images, std::size_t rows, const RawMaterial& raw, std::uint32_t sums,
                std::uint64_t seed) {
   const std::size_t views = raw.views.size(), count = rows * views;
   std::vector<std::vector<std::size_t>> images_of(sums);
   for (std::size_t i = 0; i < count; ++i) images_of[place_of(i, seed, sums).sum].push_back(i);
   Matrix out = Matrix::Zero(Eigen::Index(raw.texels()), sums);
-  // Each sum belongs to one thread, which adds in a fixed order.
+  // One thread computes a sum, in a fixed order, so that the bits are always the same.
   tbb::parallel_for(std::uint32_t{0}, sums, [&](std::uint32_t sum) {
     for (const std::size_t i : images_of[sum])
       add_image(&images[i * raw.texels()], raw.width, raw.height, place_of(i, seed, sums), out);
@@ -52,7 +53,7 @@ Matrix sums_of(const std::vector<float>& images, std::size_t rows, const RawMate
   return out;
 }
 
-// Returns R with R^T R = U^T U, so that R a has the same length as U a.
+// Returns R with R^T R = U^T U for the light basis U. R is square, and R a has the same length as U a.
 Matrix lengths_of(const nook::material::Material& material) {
   const Eigen::Index rank = material.btf.shape.rank_light;
   const Eigen::Map<const Matrix> basis(material.light_basis.data(),
@@ -64,7 +65,7 @@ Matrix lengths_of(const nook::material::Material& material) {
   return Matrix(shifted.llt().matrixL().transpose().toDenseMatrix().cast<float>());
 }
 
-// Returns the weights of the modes S_c[a, b] of one cluster in the sums, one row per sum.
+// Each sum is a weighted sum of the modes S_c[a, b]. Returns the weights for one cluster, one row per sum.
 Matrix weights_of(const ClusteredTensor& t, std::uint32_t cluster, const Matrix& lengths, std::uint32_t sums,
                   std::uint64_t seed) {
   const TensorShape& s = t.shape;

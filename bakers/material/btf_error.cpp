@@ -61,7 +61,7 @@ Matrix light_modes(const ClusteredTensor& t, std::size_t view) {
   return modes;
 }
 
-// Returns the images that a view sees, from images of the relief's points.
+// Converts images of the relief's points to the images that a view sees.
 Matrix seen(const nook::material::Material& material, std::size_t view, const Matrix& images) {
   if (!material.relief.moves()) return images;
   const auto& shape = material.btf.shape;
@@ -74,7 +74,7 @@ Matrix seen(const nook::material::Material& material, std::size_t view, const Ma
   return out;
 }
 
-// Adds up the errors of views. decode(view) returns all rows of one view.
+// Adds up the errors of all views. decode(view) must return all rows of one view.
 template <class Decode>
 BtfError error_of_views(const RawMaterial& raw, const Decode& decode) {
   const std::size_t views = raw.views.size(), texels = raw.texels();

@@ -141,7 +141,7 @@ struct ColourModel {
 ColourModel read_colour_model(Rest& rest) {
   constexpr const char* what = "colour model";
   ColourModel colour;
-  rest.u32(what);  // the largest number of components
+  rest.u32(what);  // skips the largest number of components
   colour.model = int(rest.u32(what));
   for (int i = 0; i < 3; ++i) colour.mean[i] = rest.f32(what);
   for (int i = 0; i < 9; ++i) colour.matrix(i / 3, i % 3) = rest.f32(what);
@@ -191,7 +191,7 @@ float number_of(std::span<const std::byte> bytes) {
   return bytes.size() == 4 ? bit_cast<float>(std::uint32_t(bits)) : float(bit_cast<double>(bits));
 }
 
-// Rows of numbers of a file.
+// A matrix in the file, stored row by row.
 struct Rows {
   std::span<const std::byte> bytes;
   std::size_t number_bytes = 0, columns = 0;
@@ -204,8 +204,8 @@ struct Rows {
 
 // The values of a channel are pairs * texels^T.
 struct Channel {
-  Matrix pairs;   // light + lights * view
-  Matrix texels;  // of the square, in the order of RawMaterial::btf
+  Matrix pairs;   // row light + lights * view
+  Matrix texels;  // rows for the texels of the square that is read, in the order of RawMaterial::btf
 };
 
 Matrix all_rows(const Rows& rows, std::size_t count) {
@@ -214,7 +214,8 @@ Matrix all_rows(const Rows& rows, std::size_t count) {
   return matrix;
 }
 
-// In a raw material, y starts at the bottom, but in the file it starts at the top.
+// Returns the rows of the texels in the middle of the file's texture. In a raw material, y starts at the
+// bottom, but in the file it starts at the top.
 Matrix middle_rows(const Rows& rows, Size size, const RawMaterial& raw) {
   Matrix matrix(Eigen::Index(raw.texels()), Eigen::Index(rows.columns));
   const std::size_t left = (size.width - raw.width) / 2, top = (size.height - raw.height) / 2;

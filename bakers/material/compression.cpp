@@ -44,7 +44,7 @@ struct FitTask {
   const RawMaterial& raw;
   tensor::TensorView values;
   std::size_t view_mode;
-  std::vector<std::size_t> ranks;  // for the view mode, the total over clusters
+  std::vector<std::size_t> ranks;  // one for each mode; for the view mode, the total over all clusters
   tensor::Pursuit pursuit;         // for K-CTA
   const CompressionSettings& settings;
   const StageProgress& progress;
@@ -117,8 +117,8 @@ ClusteredTensor as_clustered_tensor(const tensor::ClusteredFit& fit) {
   return t;
 }
 
-// Returns the basis of the light mode of a BTF's fit. With clusters, the basis is global. For an N-SVD, it is
-// the basis of the only cluster.
+// Returns the light basis of a fitted BTF. With several clusters, all clusters share this basis. For an
+// N-SVD, it is the basis of the only cluster.
 std::vector<float> light_basis_of(const tensor::ClusteredFit& fit) {
   const Matrix& own = fit.clusters[0].basis.empty() ? fit.global_basis[0] : fit.clusters[0].basis[0];
   const Matrix& basis = fit.global_basis[0].size() > 0 ? fit.global_basis[0] : own;
@@ -139,8 +139,8 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   if (task.progress && !task.progress("view map", 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
   const Matrix projections = tensor::atom_projections(fitted, task.values);
   t.map.side = side;
-  // The VOTF has no step penalty, because the errors of its mask are at the threshold and do not depend on
-  // steps.
+  // The VOTF has no step penalty, because errors of its mask arise at the threshold, whatever the steps
+  // between views are.
   const double penalty = task.view_mode > 0 ? task.settings.step_penalty : 0;
   const auto progress = [&](std::size_t round, std::size_t rounds) {
     return !task.progress || task.progress("view map", round, rounds);
@@ -165,8 +165,8 @@ CompressedBtf compress_btf(const RawMaterial& raw, const CompressionSettings& s,
 ClusteredTensor compress_votf(const RawMaterial& raw, const std::vector<float>& values,
                               const CompressionSettings& s, const StageProgress& progress) {
   check_settings(s, raw);
-  // The better search is cheap for this small tensor. On fiber, it reduces the error texels by a fifth. The
-  // BTF does not gain from it.
+  // Uses the more thorough search, which is fast for this small tensor. On fiber, it reduces the number of
+  // wrong texels by a fifth. The BTF does not gain from this search.
   FitTask task{raw,
                votf_view(raw, values),
                0,

@@ -43,7 +43,8 @@ constexpr DefaultRanks builtin_ranks[] = {{"fiber", 16, 80, 64, 64, 80, 80},
                                           {"roughhole", 28, 44, 96, 96, 80, 80},
                                           {"weave", 20, 40, 48, 48, 48, 48}};
 
-// Returns the rank for a smaller version of a built-in material. It is a multiple of 4 if the size allows.
+// Returns the rank, limited to the size of its mode, for materials that are smaller than the built-in ones. A
+// limited rank is a multiple of 4 if the size is at least 4.
 std::uint32_t at_most(std::uint32_t rank, std::size_t size) {
   if (rank <= size) return rank;
   return size >= 4 ? std::uint32_t(size / 4 * 4) : std::uint32_t(size);

@@ -101,8 +101,8 @@ void check_bounds(const Bounds& b) {
                   double(b.x.length()), double(b.y.length()), double(most_width));
 }
 
-// Surfaces share vertices if their primitives do. A vertex can have only one colour. It is the colour of its
-// last triangle.
+// A vertex can have only one colour, but triangles of different surfaces can share vertices. Each vertex gets
+// the colour of its last triangle.
 std::vector<Vec3> colours_of(const StaticScene& scene) {
   std::vector<Vec3> colours(scene.position.size());
   for (std::size_t t = 0; t < scene.triangle.size(); ++t)
@@ -122,8 +122,9 @@ Place place_of(Vec3 p) {
   return {on_circle(p.x), on_circle(p.y), std::lround(double(p.z) * steps)};
 }
 
-// Adds to each normal the normals of vertices that are whole tiles away, so that a surface that continues in
-// the next tile has no visible edge. Normals that differ by more than 60 degrees belong to other faces.
+// Adds to each vertex normal the normals of the vertices at the same place in other tiles. Otherwise, a
+// surface that continues in the next tile would show an edge. Leaves out normals that differ by more than 60
+// degrees, because they belong to other faces.
 void join_across_border(MesoSurface& surface) {
   std::map<Place, std::vector<std::size_t>> vertices_at;
   for (std::size_t v = 0; v < surface.position.size(); ++v)

@@ -23,8 +23,9 @@ void rectify_back(const Columns& after, Columns& gradient) {
       (after.array() > 0).select(Eigen::ArrayXXf::Ones(after.rows(), after.cols()), neural_leak);
 }
 
-// A direction's place on the square map of views: a disc of equal solid angles, mapped to the square by P.
-// Shirley's and K. Chiu's concentric map, 1997.
+// The place of a direction on the square map of views. The directions up to the widest view
+// are mapped to a disc, so that equal solid angles have equal areas. The disc is mapped to the square by the
+// concentric map (P. Shirley and K. Chiu 1997).
 struct Place {
   float x, y;
 };
@@ -114,7 +115,8 @@ void set_sum(std::vector<float>& weights, std::size_t where, const Columns& grad
   Eigen::Map<Eigen::VectorXf>(&weights[where], gradient.rows()) = gradient.rowwise().sum();
 }
 
-// Returns the gradient of a height. The height moves the point at which the features of a position are read.
+// Returns the derivative of the loss with respect to a height. The height moves the point at which the
+// features of a position are read.
 float height_gradient(const NeuralNumbers& n, Vec3 view, const NeuralPass::Tap& tap,
                       const Eigen::Ref<const Eigen::VectorXf>& gradient) {
   float along_x = 0, along_y = 0;

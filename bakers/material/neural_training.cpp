@@ -16,8 +16,8 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t part_positions = 64;  // positions of a part of a batch; a part is evaluated together
-constexpr std::uint32_t warm_steps = 200;   // steps with a rising rate
+constexpr std::size_t part_positions = 64;  // positions in one part of a batch; a part is evaluated at once
+constexpr std::uint32_t warm_steps = 200;   // the learning rate rises during these first steps
 
 // Parameters that are trained. Features are clamped to [-1, 1], because blocks cannot encode other values.
 struct Trained {
@@ -35,11 +35,11 @@ struct Trained {
   }
 };
 
-// Radiance divided by its root mean square: view x texel x light x RGB. This order makes the values of a
-// position adjacent.
+// Radiances divided by their root mean square, in the order view x texel x light x RGB. In this order, the
+// values of one position are adjacent.
 struct Targets {
   std::vector<float> value;
-  float scale = 1;  // the radiance that a value of 1 stands for
+  float scale = 1;  // the radiance of a value of 1
 };
 
 Targets targets_of(const RawMaterial& raw) {
@@ -149,7 +149,8 @@ void add_gradients(Trainer& t) {
   }
 }
 
-// Trains only the network of the offset, to the first hits of the relief at which views agree.
+// Trains only the offset network. Its targets are where view rays first hit the relief at which the views
+// agree.
 void fit_offsets(Trainer& t, const StageProgress& progress) {
   const NeuralShape& s = t.shape;
   const std::vector<float> heights = heights_of_views(t.raw, [&](std::size_t, std::size_t) {
@@ -228,7 +229,8 @@ void part_gradient(const Trainer& t, const Targets& targets, const NeuralNumbers
 
 void train(Trainer& t, const Targets& targets, const StageProgress& progress) {
   const NeuralSettings& s = t.settings;
-  constexpr float offset_share = 0.3f;  // relative to the features' rate
+  constexpr float offset_share =
+      0.3f;  // learning rate of the offset features, relative to the rate of the other features
   for (std::uint32_t step = 0; step < s.steps; ++step) {
     const NeuralNumbers numbers = 2 * step >= s.steps ? t.rounded() : t.numbers();
     const std::uint64_t seed = mix_bits(s.seed ^ mix_bits(step + 1));

@@ -34,7 +34,7 @@ Vec3 microfacet_reflection(const Reflector& s, Vec3 normal, Vec3 view, Vec3 ligh
   const float n_h = std::max(dot(normal, half), 0.0f), v_h = std::max(dot(view, half), 0.0f);
   const float a2 = s.width * s.width;
   const float slope = n_h * n_h * (a2 - 1) + 1;
-  const float density = a2 / (slope * slope);  // times pi
+  const float density = a2 / (slope * slope);  // the density, times pi
   const float masked =
       n_l * std::sqrt(n_v * n_v * (1 - a2) + a2) + n_v * std::sqrt(n_l * n_l * (1 - a2) + a2);
   const float gloss = masked > 0 ? density * 0.5f / masked : 0;
@@ -47,7 +47,7 @@ namespace {
 
 constexpr float most_height = 0.5f;  // tiles
 
-// Returns central differences of the heights. They continue across the border of the tile.
+// Returns central differences of the heights. At the border, uses the heights of the next tile.
 MapSlope slope_of(const std::vector<float>& z, std::uint32_t side, std::uint32_t x, std::uint32_t y) {
   const auto at = [&](std::uint32_t column, std::uint32_t row) {
     return z[std::size_t(row % side) * side + column % side];

@@ -172,7 +172,8 @@ struct Size {
   Size halved() const { return {(width + 1) / 2, (height + 1) / 2}; }
 };
 
-// Level 0 first; y fastest, as in RawMaterial.
+// A pyramid of images, starting with the finest level. Texels have the order x * height + y, as in
+// RawMaterial.
 using Levels = std::vector<std::vector<float>>;
 
 std::vector<Size> sizes_of(Size size) {
@@ -193,7 +194,7 @@ void pull(const std::vector<Size>& sizes, Levels& levels) {
   }
 }
 
-// Returns the second nearest texel of the coarser level; the nearest is at / 2.
+// The texel at / 2 of the coarser level is nearest to the texel `at`. Returns the second nearest one.
 std::size_t beside(std::size_t at, std::size_t size) {
   return (at / 2 + (at % 2 ? 1 : size - 1)) % size;
 }

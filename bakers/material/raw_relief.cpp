@@ -27,7 +27,7 @@ float middle(std::size_t texel, std::uint32_t side) {
   return (float(texel) + 0.5f) / float(side);
 }
 
-// Returns where the view sees the relief's points, ignoring what hides them.
+// Returns where the view sees the points of the relief, as if no point were hidden by others.
 std::vector<Taps> unhidden_taps(const Relief& relief, const ReliefTables& tables, std::uint32_t width,
                                 std::uint32_t height, Vec3 view) {
   const nook::material::TexturePlace slope = nook::material::relief_slope(tables, view);
@@ -41,12 +41,12 @@ std::vector<Taps> unhidden_taps(const Relief& relief, const ReliefTables& tables
   return taps;
 }
 
-// Images of a view and their sums; each has one number per texel.
+// Working memory of the conjugate gradients. Each vector has one value per texel.
 struct ConjugateWork {
   std::vector<float> step, rest, along, image;
 };
 
-// gather() sets out = S * in. scatter() adds S^T * in to `out`.
+// The taps are the rows of a sparse matrix S. gather() sets out = S * in. scatter() adds S^T * in to `out`.
 void gather(const std::vector<Taps>& taps, const float* in, float* out) {
   for (std::size_t t = 0; t < taps.size(); ++t) out[t] = mean_of(taps[t], in);
 }
@@ -237,7 +237,7 @@ class SearchProgress {
   std::size_t parts_, part_ = 0;
 };
 
-// no relief, and a plane
+// the candidates without a relief and with a plane
 constexpr std::size_t other_candidates = 2;
 
 // Returns the best of several reliefs: a plane at the heights' mean, the heights smoothed over some numbers

@@ -165,8 +165,8 @@ MesoSurface make_rough_hole(const MesoParameters& p) {
     }
     return nearest + ragged;
   };
-  // Positive inside. At the rim of a hole, the field changes along a quarter circle from the height to the
-  // distance to the hole.
+  // Positive inside the stone. Inside, the field is the depth below the plate's surface or the distance to
+  // the hole's wall, whichever is smaller. At the rim of a hole, a quarter circle joins both.
   const auto field = [=](Vec3 q) {
     const float depth = half - std::abs(q.z), wall = from_rim(q), round = 0.5f * half;
     const float corner = std::hypot(std::max(round - depth, 0.0f), std::max(round - wall, 0.0f));
@@ -179,7 +179,8 @@ MesoSurface make_rough_hole(const MesoParameters& p) {
     return (Vec3{0.30f, 0.27f, 0.25f} + Vec3{0.34f, 0.24f, 0.14f} * std::clamp(patch, 0.0f, 1.0f)) * grain;
   };
   IsoGrid grid;
-  // Noise of three octaves reaches 1.75 amplitudes. One more cell keeps the field negative at both ends.
+  // Noise of three octaves reaches 1.75 times its amplitude, so the grid must be higher than the plate. One
+  // more cell keeps the field negative at the bottom and the top.
   grid.top = half + 1.8f * p.roughness;
   grid.cells = std::uint32_t(std::lround(96 * p.detail));
   grid.layers = std::uint32_t(std::ceil(2 * grid.top * float(grid.cells))) + 2;

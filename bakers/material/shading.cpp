@@ -113,7 +113,7 @@ class Reflection {
   Reflector point_;
 };
 
-// Returns the triangles that the rays of each vertex hit. The vertex gathers light from them.
+// Traces the rays of each vertex. Returns their hits, from which the vertex gathers light.
 std::vector<SurfaceHit> gather_hits(const MesoSurface& surface, const TiledScene& scene, std::uint32_t rays,
                                     std::uint64_t seed) {
   const HemispherePatterns patterns(rays, seed);

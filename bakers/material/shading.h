@@ -20,8 +20,8 @@ struct SurfaceHit {
   Vec3 normal;         // geometric normal, unit length, out of the solid
 };
 
-// A BVH with as many copies of one tile as a ray of the largest tilt can cross. You may trace from any
-// thread. The calling thread must have a FlushDenormals.
+// A BVH with as many copies of one tile as a ray of the largest tilt can cross. You can trace from any
+// thread, if the thread has created a FlushDenormals object that still exists.
 class TiledScene {
  public:
   // The surface must outlive the scene.

@@ -14,7 +14,7 @@ namespace {
 using Eigen::Index;
 using tensor::Matrix;
 
-// Sums of the views' values, from which their variance is computed.
+// Sums over views, from which the variance of the values is computed.
 struct Spread {
   double sum = 0, squares = 0;
   int count = 0;
@@ -59,7 +59,8 @@ float disagreement(const RawMaterial& raw, std::size_t texel, float height) {
 
 }  // namespace
 
-// A parabola places the minimum between levels.
+// Finds the best of the height levels for each texel. A parabola through this level and its neighbours then
+// gives the minimum between levels.
 std::vector<float> heights_of_views(const RawMaterial& raw, const ReliefProgress& progress) {
   constexpr std::size_t texels_at_once = 512;  // between two calls of progress
   const std::size_t texels = raw.texels();

@@ -38,8 +38,8 @@ void check(const TraceSettings& s, std::span<const Vec3> lights, std::span<const
                       double(d.x), double(d.y), double(d.z));
 }
 
-// Checks the needed memory before it is allocated. It is needed for the BTF and, per vertex, for the light
-// and the rays of inter-reflection.
+// Checks how much memory is needed before it is allocated. The BTF needs memory, and so do the light and the
+// rays of inter-reflection at each vertex.
 void check_memory(const TraceSettings& s, std::size_t lights, std::size_t views, std::size_t vertices) {
   constexpr double most_bytes = 16.0 * (1u << 30);
   const double btf = 3.0 * sizeof(float) * double(lights) * double(views) * s.width * s.height;
@@ -53,7 +53,7 @@ void check_memory(const TraceSettings& s, std::size_t lights, std::size_t views,
                   lights, views, s.width, s.height, vertices, bytes / (1u << 30), most_bytes / (1u << 30));
 }
 
-// One column of texels, x fixed, from one view.
+// Traces one column of texels, which have the same x, from one view.
 class Column {
  public:
   Column(const MesoSurface& surface, const TiledScene& scene, const InterReflection& indirect,

@@ -78,7 +78,7 @@ MesoSurface make_fiber(const MesoParameters& p) {
   MesoSurface surface;
   surface.specular = 0.06f;
   surface.shininess = 24;
-  // Directions of fibres over the torus: the number of tiles along x and y until a fibre meets itself.
+  // Directions of fibres. A fibre meets itself after this number of tiles along x and y.
   constexpr int courses[][2] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}, {2, 1}, {-1, 2}, {-2, 1}, {1, 2}};
   Random random(p.seed);
   for (std::uint32_t i = 0; i < p.count; ++i) {

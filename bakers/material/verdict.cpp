@@ -40,7 +40,8 @@ std::vector<Vec3> chosen_of(const std::vector<Vec3>& all, const std::vector<std:
   return out;
 }
 
-// Returns the middle of a material in either the held-out or the other views and lights, without the mask.
+// Returns the middle of a material without the mask. It has either only the held-out views and lights, or
+// only the others.
 RawMaterial part_of(const RawMaterial& raw, bool held_out) {
   const std::vector<std::size_t> lights = indices(raw.lights.size(), held_out),
                                  views = indices(raw.views.size(), held_out);
@@ -63,7 +64,7 @@ RawMaterial part_of(const RawMaterial& raw, bool held_out) {
   return part;
 }
 
-// Scales a rank in proportion to a mode that has become smaller.
+// Scales a rank by the same factor as the size of its mode.
 std::uint32_t scaled(std::uint32_t rank, std::size_t size, std::size_t whole) {
   const double share = double(size) / double(whole);
   return std::clamp(std::uint32_t(std::ceil(double(rank) * share)), 1u, std::uint32_t(size));
@@ -89,7 +90,7 @@ CompressionSettings trial_settings(CompressionSettings s, const RawMaterial& raw
   return s;
 }
 
-// Measures the share of radiances that are clearly negative.
+// Returns the share of radiances that are below -0.1 % of `rms`.
 double negative_share(const Material& seen, double rms) {
   std::size_t negative = 0, all = 0;
   for (std::size_t view = 0; view < seen.views.size(); ++view) {
@@ -100,7 +101,7 @@ double negative_share(const Material& seen, double rms) {
   return all > 0 ? double(negative) / double(all) : 0;
 }
 
-// Returns views that are one degree apart on an arc over the hemisphere. Each `number` gives another arc.
+// Returns views on an arc over the hemisphere, in steps of one degree. `number` chooses the arc.
 std::vector<Vec3> arc_of(int number) {
   const double azimuth = 2 * std::numbers::pi * number / arcs, first = 5 + 8 * number;
   std::vector<Vec3> views;

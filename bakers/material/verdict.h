@@ -19,7 +19,7 @@ enum class Grade : std::uint8_t {
 };
 
 // In the held-out views and lights, a material is good from good_db on, and bad below bad_db. The trial fit
-// has a fifth fewer directions than the bake, so its dB values are rather too low than too high.
+// has a fifth fewer directions than the bake, so its dB values tend to be too low.
 inline constexpr double good_db = 18, bad_db = 12;
 
 struct Verdict {

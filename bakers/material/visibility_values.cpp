@@ -12,8 +12,7 @@ namespace {
 constexpr float far_away = 1e12f;
 
 // Computes squared distances to the lower envelope of the parabolas f(q) + (p - q)^2 (Felzenszwalb and
-// Huttenlocher 2012). The line is extended to three periods, so that the middle period has neighbours on both
-// sides.
+// Huttenlocher 2012). The line repeats, so this handles three periods and writes the middle one.
 void transform_line(const float* f, std::size_t n, std::size_t stride, float* out, std::vector<double>& bound,
                     std::vector<int>& parabola) {
   const int size = int(3 * n);
