@@ -147,8 +147,9 @@ void AnimalRig::find_chains() {
 
 namespace {
 
-// The phase of each leg in a gait with planted feet. Four legs walk or trot. Two legs alternate. More legs
-// move in tripods or similar groups, so that neighbouring legs never move at the same time.
+// Returns the phase of a leg in a gait with planted feet. With four legs, the gait is a walk or a trot. Two
+// legs alternate. With more legs, the gait moves tripods or similar groups, in which neighbouring legs never
+// move at the same time.
 float leg_phase(const LegChain& leg, std::size_t legs, bool trots) {
   const float side = leg.left ? 0.0f : 0.5f;
   if (legs != 4) return std::fmod(side + 0.5f * float(leg.row % 2), 1.0f);
@@ -318,8 +319,8 @@ struct Bends {
   std::vector<float> angle;  // for each joint after the hip, the bend at rest, radians
 };
 
-// A joint bends in the direction of its bend at rest. A straight joint bends like a knee: the lower part
-// swings to the back.
+// A joint that is bent at rest bends further in the same direction. A joint that is straight at rest bends
+// like a knee: the lower part swings to the back.
 Bends bends_of(std::span<const Vec3> points, Vec3 left) {
   constexpr float least_bend = 0.05f;  // radians
   Bends bends;
@@ -333,9 +334,9 @@ Bends bends_of(std::span<const Vec3> points, Vec3 left) {
   return bends;
 }
 
-// Returns the turns of all joints after the hip for one amount of flexion, radians. A negative flexion
-// stretches the leg. Each joint keeps a part of its rest bend, so that a stretched leg does not bend the
-// wrong way.
+// Returns the turns of all joints after the hip if the leg is flexed by an angle in radians. A negative
+// flexion stretches the leg. Each joint keeps at least a tenth of its rest bend, so that a stretched leg does
+// not bend the wrong way.
 std::vector<Mat3x4> flexed(std::span<const Vec3> points, const Bends& bends, float flexion,
                            std::span<const float> share) {
   std::vector<Mat3x4> turns;
@@ -389,7 +390,7 @@ std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
   return all;
 }
 
-// Each chain bends as a whole, with small random differences between its joints.
+// Bends each chain as a whole, with small random differences between its joints.
 void AnimalRig::bend_chains(const Plan& plan, std::vector<Mat3x4>& local, PoseRandom& random) const {
   const auto bend = [&](const std::vector<std::size_t>& chain, Vec3 whole, Vec3 curl, float jitter) {
     const float share = 1 / float(chain.size());

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t block_poses = 32;
 
 // Returns the quadratic form of the shadows of one block (count x padded), without the constant term.
-// Overwrites `shadow` with the gradient of the form with respect to the shadows.
+// The values in `shadow` are replaced by the gradient of the form with respect to the shadows.
 double quadratic_form(const CachedObjective& cache, std::size_t first, std::size_t count, float* shadow) {
   const auto rows = Eigen::Index(count);
   Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, cache.a.rows());

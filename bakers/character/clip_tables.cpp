@@ -100,7 +100,7 @@ float time_of(const Clip& clip, std::uint32_t frames, double frame) {
   return frames > 1 ? float(double(clip.duration_s) * frame / double(frames - 1)) : 0.0f;
 }
 
-// Rounds a factorisation to the number type of a table. The weights are fitted again to the rounded modes.
+// Rounds the modes to the number type of a table, and then fits the weights again to the rounded modes.
 template <class Number>
 FrameTable<Number> rounded(const Eigen::MatrixXf& values, const Eigen::MatrixXf& modes) {
   FrameTable<Number> table;

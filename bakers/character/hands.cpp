@@ -57,8 +57,8 @@ Hand hand_of(const Rig& rig, std::size_t wrist) {
   return hand;
 }
 
-// Returns the direction across the knuckles towards the index finger. The index finger's knuckle is the
-// farthest one on the thumb's side.
+// Returns the direction across the knuckles, from the little finger to the index finger. The index finger is
+// at the end of the row of knuckles that is nearer to the thumb.
 Vec3 across_knuckles(const Rig& rig, const Hand& hand, Vec3 up) {
   Vec3 across;
   for (const std::size_t a : hand.knuckles)
@@ -75,7 +75,7 @@ Vec3 across_knuckles(const Rig& rig, const Hand& hand, Vec3 up) {
 // curled at rest, their curl shows the palm's side most reliably. Otherwise, the palm is on the side of the
 // thumb.
 Vec3 finger_axis(const Rig& rig, const Hand& hand, Vec3 across) {
-  constexpr float least_curl = 0.05f;  // sine of the turn from joint to joint, mean over fingers
+  constexpr float least_curl = 0.05f;  // sine of the angle between neighbouring joints, mean over fingers
   Vec3 bend;
   for (const std::size_t b : hand.members) {
     const Joint& joint = rig.joints[b];

@@ -11,9 +11,9 @@
 namespace nook::bake {
 namespace {
 
-// The spheres of a flat bone represent patches of a surface. If the vertices lie on a line, the spheres
-// represent pieces of the line. Spheres as small as the thickness would cast no shadow at all. So a radius is
-// at least these shares of the breadth and length. They are below the thickness of any limb, ear or finger.
+// The vertices of a bone may lie in a plane or on a line. Spheres as small as the thickness would then cast
+// no shadow. So the radius is at least these shares of the breadth and the length. The shares are so small
+// that they do not change the spheres of limbs, ears and fingers.
 float least_radius(const float (&spread)[3]) {
   return std::max({0.05f * spread[1], 0.02f * spread[2], 1e-4f});
 }
@@ -75,8 +75,8 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
     return shapes[a].area != shapes[b].area ? shapes[a].area > shapes[b].area : a < b;
   });
   if (order.size() > sphere_count) order.resize(sphere_count);
-  // The elongation determines the number of spheres. A flat bone (l1 near 0) would get very many small
-  // spheres, so we limit their number.
+  // The longer a bone is relative to its thickness, the more spheres it gets. The wish is limited, because a
+  // flat bone (least spread near 0) would otherwise get very many small spheres.
   std::vector<double> wish(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BoneShape& s = shapes[order[i]];
@@ -94,7 +94,7 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
     carried -= double(more);
     const std::size_t count = 1 + more;
     const float radius = std::max(s.spread[0], least_radius(s.spread));
-    // Uniform density over a length l has standard deviation l / sqrt(12).
+    // A uniform density over a length l has the standard deviation l / sqrt(12).
     const float half = 0.5f * std::sqrt(12.0f) * s.spread[2] * (1 - 1 / float(count + 1));
     for (std::size_t j = 0; j < count; ++j) {
       const float at = count == 1 ? 0 : half * (2 * float(j) / float(count - 1) - 1);

@@ -59,12 +59,13 @@ struct JoinedHands::Grip {
   Vec3 handle;      // direction of the handle, same axes
   float apart[2];   // distance of the knuckles from the handle, towards the back of the hand
   float along[2];   // position of the knuckles along the handle
-  Vec3 miss[2];     // error of a hand's position, as in retargeted clips
-  float thumb[2];   // 1: the thumb's side lies towards the handle's end, -1: away from it
+  Vec3 miss[2];     // random error of a hand's position, because retargeted clips have such errors
+  float thumb[2];   // 1: the hand's thumb side faces the handle's end; -1: it faces the start
   Vec3 aim[2];      // added to the direction of the fingers
   Vec3 elbow[2];    // added to the direction to which elbows point
   float curl[2];    // fingers: 0 stretched, 1 a fist
-  float pronation;  // share of the hand's turn about the forearm's axis that the forearm makes
+  float pronation;  // when the hand turns about the forearm's axis, the share of this turn that the forearm
+                    // makes
 };
 
 struct JoinedHands::ArmPose {

@@ -90,8 +90,8 @@ JudgedPoses judged_poses(const ImportedCharacter& character, const Recipe& recip
 
 namespace {
 
-// Names the parts of the body that a vertex belongs to: by the role of the bone with the largest weight, and
-// by the vertex's mesh.
+// Names for the part of the body that a vertex belongs to. One name comes from the role of the bone with the
+// largest weight, the other is the name of the vertex's mesh.
 
 const char* part_of(JointRole role) {
   switch (role) {
@@ -362,8 +362,8 @@ std::string names_of(const std::vector<std::string>& names) {
   return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
-// Returns a mesh, such as a prop, with a much larger share of the error than of the body's area. Returns null
-// if there is none.
+// Returns a mesh whose share of the error is much larger than its share of the area, for example a prop.
+// Returns null if there is no such mesh.
 const JudgedPart* outlying_mesh(const Judgement& j) {
   if (j.meshes.size() < 2) return nullptr;
   const JudgedPart& worst = j.meshes.front();

@@ -174,7 +174,7 @@ struct PairKernel {
 
 PairKernel select(const Kernel& kernel) {
   const int column = kernel.gamma == 1.0f ? 0 : kernel.gamma == 1.5f ? 1 : kernel.gamma == 2.0f ? 2 : 3;
-  // Rows by KernelForm, columns by gamma.
+  // The row depends on KernelForm, the column on gamma.
   static constexpr PairKernel table[kernel_form_count][4] = {
       {{add_paper_1, gradient_paper_1},
        {add_paper_15, gradient_paper_15},

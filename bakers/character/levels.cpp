@@ -90,8 +90,8 @@ struct Line {
   float scale = 0, offset = 0, residual = 0;  // `residual` is a mean square
 };
 
-// Holds means and centred second moments of the even poses, so that a line through any pair takes few
-// operations.
+// Fits lines between the shadows of key points. It stores the means and centred second moments over the even
+// poses, so that a fit for one pair of key points is fast.
 class Regression {
  public:
   Regression(const Shadows& fine, const Shadows& coarse) : points_(fine.points) {
@@ -137,9 +137,9 @@ class Regression {
   std::vector<float> fine_, coarse_, fine_mean_, coarse_mean_;
 };
 
-// Returns the cost if a key point follows another one. It is the error at the vertices plus a penalty. The
-// penalty is for the distance between the two points and the angle between their normals. The penalty is
-// needed because the follower also takes over the occlusion by other casters, which no pose contains. A
+// Returns the cost if key point k follows key point r, for all pairs. The cost is the error at the vertices
+// plus a penalty for the distance between both points and the angle between their normals. The penalty is
+// needed because a follower also takes over the occlusion by other casters, which no pose contains. A
 // distance of 0.1 m counts as 0.01 of shadow, and an angle of 60 degrees as 0.05.
 std::vector<float> following_cost(const CharacterModel& model, const Regression& regression) {
   const std::size_t points = model.key_points.size();

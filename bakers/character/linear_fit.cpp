@@ -24,9 +24,9 @@ std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vert
   return floor;
 }
 
-// Non-negative least squares on the chosen key points with an active set. Solves without bounds and drops the
-// entry with the most negative weight, until no weight is negative. A dropped entry has the weight 0 in the
-// result.
+// Solves for the weights of the chosen key points by non-negative least squares with an active set.
+// Repeatedly solves without bounds and drops the entry with the most negative weight, until no weight is
+// negative. A dropped entry has the weight 0 in the result.
 Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& gram, const Eigen::VectorXd& correlation) {
   const Eigen::Index n = correlation.size();
   std::vector<Eigen::Index> active(static_cast<std::size_t>(n));
@@ -95,12 +95,12 @@ DarknessBlock darkness_of(const TrainingSet& set, const ShadowStatistics& shadow
   return block;
 }
 
-// If the variance of a vertex's darkness or of a key point's shadow is below this, it counts as constant. For
-// example, the shadows on a rigid prop vary only by rounding. Otherwise, the fit would give them enormous
-// weights to explain the noise of the rays.
+// A vertex's darkness or a key point's shadow counts as constant if its variance is below this value. For
+// example, the shadows on a rigid prop vary only by rounding. Without this limit, the fit would give such
+// shadows enormous weights to explain the noise of the rays.
 constexpr double constant_variance = 1e-8;
 
-// Some of a vertex's key points, with the weights that explain it best.
+// Key points that are chosen for a vertex, with the weights that explain its darkness best.
 struct Choice {
   std::vector<Eigen::Index> key_point;
   Eigen::VectorXd weight;
@@ -115,7 +115,7 @@ struct Choice {
 // Chooses key points for one vertex one by one, and solves for their weights.
 class KeyPointChoice {
  public:
-  // `allowed` has the vertex's candidates. The first `anchors` of them always get an entry.
+  // `allowed` contains the candidates of the vertex. The first `anchors` candidates always get an entry.
   KeyPointChoice(const Eigen::MatrixXd& gram, std::span<const std::uint16_t> allowed, std::size_t anchors,
                  std::size_t entries)
       : gram_(gram), allowed_(allowed), anchors_(anchors), entries_(entries) {}
@@ -138,8 +138,8 @@ class KeyPointChoice {
   }
 
  private:
-  // Returns the key point that would explain most of the remaining variance if it were added alone. Returns
-  // -1 if there is none.
+  // Returns the key point that explains most of the remaining variance if it is added and the other weights
+  // do not change. Returns -1 if no key point can be added.
   Eigen::Index best_addition(const Choice& choice, const Eigen::VectorXd& correlation) const {
     const auto others = std::count_if(choice.key_point.begin(), choice.key_point.end(),
                                       [&](Eigen::Index k) { return !is_anchor(k); });

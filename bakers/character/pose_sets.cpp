@@ -24,8 +24,8 @@ bool is_letter(char c) {
   return is_lower(c) || is_upper(c) || static_cast<unsigned char>(c) >= 0x80;
 }
 
-// Returns true for a capital after a letter that is not a capital (jumpStart), and for the last of several
-// capitals before a small letter (UALWalk).
+// Returns true if a word begins at character `i`. A word begins at a capital after a small letter (S in
+// jumpStart), and at the last of several capitals before a small letter (W in UALWalk).
 bool begins_word(std::string_view name, std::size_t i) {
   if (!is_upper(name[i])) return false;
   return !is_upper(name[i - 1]) || (i + 1 < name.size() && is_lower(name[i + 1]));

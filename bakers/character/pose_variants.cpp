@@ -28,7 +28,8 @@ Vec3 reflected_point(Vec3 point, const Plane& plane) {
   return point - 2 * (dot(point, plane.normal) - plane.offset) * plane.normal;
 }
 
-// A joint with all joints below it. The lower joints distinguish joints at the same position.
+// A joint and all joints below it. If two joints have the same position, the joints below them distinguish
+// them.
 struct Branch {
   Vec3 middle;  // mean over the joint and all joints below it, metres
   float count = 1;
@@ -116,7 +117,8 @@ namespace {
 
 using Motions = std::vector<JointMotion>;
 
-// Returns joints that carry a notable part of the body. These parts can be exchanged between two poses.
+// Returns the joints that move between 2 % and 90 % of the body's area. Such parts can be exchanged between
+// two poses.
 std::vector<std::uint32_t> limb_roots(const SkinnedMesh& mesh, const BodyTree& tree,
                                       std::span<const float> vertex_area) {
   constexpr double least_share = 0.02, most_share = 0.9;  // share of the body's area

@@ -48,11 +48,11 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
       v.auto_poses = 10000;
       v.clip_poses = 4000;
       if (!paper) {
-        // More key points have lower errors (docs/character.md), but an update takes a fifth longer.
+        // With more key points, the error is lower (docs/character.md), but an update takes a fifth longer.
         v.settings.key_points = 800;
         v.settings.spheres = 100;
       }
-      // The limit is higher, so that a file with few clips also gets more poses.
+      // This limit is higher than in the other presets, so that files with few clips get more poses too.
       v.max_samples_per_clip = 256;
       break;
   }

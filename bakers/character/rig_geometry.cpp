@@ -132,7 +132,8 @@ struct Holder {
   float amount = 0, of_ancestors = 0;
 };
 
-// Returns the holder of a branch: the bone outside the branch that shares most skin with it.
+// Returns the bone outside a branch that shares most skin with the branch. `of_ancestors` is the skin that
+// the branch shares with the ancestors of its root.
 Holder holder_by_edges(std::span<const SkinContact> contacts, std::span<const std::int32_t> parent,
                        const std::vector<char>& branch, std::size_t root) {
   std::map<std::uint32_t, float> shared;
@@ -151,8 +152,8 @@ Holder holder_by_edges(std::span<const SkinContact> contacts, std::span<const st
   return holder;
 }
 
-// Returns the holder of an unconnected part of the mesh: the bone of the nearest vertex outside that part,
-// within 3 % of the body's diagonal.
+// Returns the bone that holds an unconnected part of the mesh. It is the bone of the nearest vertex outside
+// the part, if the distance is less than 3 % of the body's diagonal.
 Holder holder_by_nearness(const SkinnedMesh& mesh, const std::vector<char>& branch) {
   constexpr std::size_t most_samples = 12;
   std::vector<std::uint32_t> own, other;

@@ -139,8 +139,8 @@ ClusteredTensor with_map(const tensor::ClusteredFit& fitted, const FitTask& task
   if (task.progress && !task.progress("view map", 0, 1)) throw Failure(NOOK_ERROR_CANCELLED, "stopped");
   const Matrix projections = tensor::atom_projections(fitted, task.values);
   t.map.side = side;
-  // The VOTF has no step penalty, because errors of its mask arise at the threshold, whatever the steps
-  // between views are.
+  // The VOTF has no step penalty, because errors of its mask depend on the threshold and not on the steps
+  // between neighbouring views.
   const double penalty = task.view_mode > 0 ? task.settings.step_penalty : 0;
   const auto progress = [&](std::size_t round, std::size_t rounds) {
     return !task.progress || task.progress("view map", round, rounds);

@@ -23,9 +23,9 @@ void rectify_back(const Columns& after, Columns& gradient) {
       (after.array() > 0).select(Eigen::ArrayXXf::Ones(after.rows(), after.cols()), neural_leak);
 }
 
-// The place of a direction on the square map of views. The directions up to the widest view
-// are mapped to a disc, so that equal solid angles have equal areas. The disc is mapped to the square by the
-// concentric map (P. Shirley and K. Chiu 1997).
+// The place of a direction on the square map of views. The directions up to the widest view are mapped to a
+// disc, so that equal solid angles have equal areas. The disc is mapped to the square by the concentric map
+// (P. Shirley and K. Chiu 1997).
 struct Place {
   float x, y;
 };

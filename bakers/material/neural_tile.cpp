@@ -24,8 +24,8 @@ std::size_t NeuralTile::bytes() const {
 
 namespace {
 
-// The indices of a channel's features in a block, row by row. A block that reaches beyond the border of the
-// tile repeats the last texels.
+// The places where one channel stores the features of a block's texels, row by row. A block that reaches
+// beyond the border of the tile repeats the last texels.
 struct BlockPlaces {
   std::size_t at[16];
 };

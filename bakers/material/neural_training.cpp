@@ -229,8 +229,8 @@ void part_gradient(const Trainer& t, const Targets& targets, const NeuralNumbers
 
 void train(Trainer& t, const Targets& targets, const StageProgress& progress) {
   const NeuralSettings& s = t.settings;
-  constexpr float offset_share =
-      0.3f;  // learning rate of the offset features, relative to the rate of the other features
+  // The offset features have this multiple of the learning rate of the other features.
+  constexpr float offset_share = 0.3f;
   for (std::uint32_t step = 0; step < s.steps; ++step) {
     const NeuralNumbers numbers = 2 * step >= s.steps ? t.rounded() : t.numbers();
     const std::uint64_t seed = mix_bits(s.seed ^ mix_bits(step + 1));

@@ -86,8 +86,8 @@ MesoSurface make_fiber(const MesoParameters& p) {
     const float span = std::hypot(float(course[0]), float(course[1]));
     const Vec3 along = normalised({float(course[0]), float(course[1]), 0}), across{-along.y, along.x, 0};
     const Vec3 start{random.unit(), random.unit(), 0};
-    // Layers are evenly spaced and directions are random, so that the mat has the same height for any number
-    // of fibres.
+    // Spreads the fibres evenly over the height, so that the mat has the same height for any number of
+    // fibres.
     const float layer = (float(i) + random.unit()) / float(p.count) - 0.5f;
     const float centre_height = (p.thickness - 2 * p.radius) * layer * 0.8f;
     Wave sideways[3], up[2];
@@ -134,7 +134,7 @@ MesoSurface make_weave(const MesoParameters& p) {
     const std::uint32_t index = i % p.count;
     const float offset = (float(index) + 0.5f) / float(p.count);
     const float parity = (index % 2 == 0) == warp ? 1.0f : -1.0f;
-    // A yarn goes over one crossing and under the next: crossings lie at (k + 1/2) / count.
+    // A yarn goes over one crossing and under the next. The crossings are at (k + 1/2) / count tiles.
     const float turns = float(p.count) / 2, lift = 0.5f * p.thickness;
     const float phase = random.unit(), tone = 0.85f + 0.3f * random.unit();
     const float twist = plies * twists_per_yarn_spacing * float(p.count);

@@ -38,9 +38,9 @@ tensor::Matrix spline_weights(const std::vector<Vec3>& views, const std::vector<
     points.push_back(nook::material::to_parabolic(v));
     rim = std::max(rim, std::hypot(points.back().x, points.back().y));
   }
-  // [K P; P^T 0] maps spline coefficients to values at the views. The inverse of this matrix maps
-  // values at the views to spline coefficients. A row of weights is a row of the spline basis times the first
-  // n columns of the inverse, which belong to the values.
+  // [K P; P^T 0] maps spline coefficients to values at the views. The inverse of this matrix maps values at
+  // the views to spline coefficients. A row of weights is a row of the spline basis times the first n columns
+  // of the inverse, which belong to the values.
   const auto n = Index(views.size()), terms = linear_terms(views.size());
   Eigen::MatrixXd system = Eigen::MatrixXd::Zero(n + terms, n + terms);
   for (Index i = 0; i < n; ++i) {
