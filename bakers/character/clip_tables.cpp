@@ -47,7 +47,8 @@ Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& columns) {
 }  // namespace
 
 LowRank factorise(const Eigen::MatrixXf& values, std::size_t count, std::uint64_t seed) {
-  // Extra vectors beyond the kept modes, and enough rounds, let the last modes converge.
+  // The iteration uses more vectors than there are kept modes, so that the last kept modes converge in these
+  // rounds.
   constexpr Eigen::Index spare = 16;
   constexpr int rounds = 3;
   const Eigen::Index smaller = std::min(values.rows(), values.cols());

@@ -7,8 +7,8 @@
 namespace nook::bake {
 namespace {
 
-// Position of padding key points. It is far enough to receive no shadow, and near enough that its square is
-// finite.
+// Coordinate of the key points that pad the SIMD vectors. It is so large that they receive no shadow, but its
+// square is still finite.
 constexpr float far_away = 1e6f;
 
 struct BlendedKeyPoint {

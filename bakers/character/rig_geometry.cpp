@@ -51,7 +51,7 @@ BoneSkin bone_skin(const SkinnedMesh& mesh) {
   return skin;
 }
 
-// Returns true for a bone if it, or a bone below it, moves skin.
+// For each bone, returns true if this bone or a bone below it moves skin.
 std::vector<char> alive(const BoneSkin& skin, std::span<const std::int32_t> parent) {
   std::vector<char> live(parent.size(), 0);
   for (std::size_t b = 0; b < live.size(); ++b) {
@@ -83,7 +83,8 @@ bool has_word(const std::string& name, std::initializer_list<const char*> wanted
   return false;
 }
 
-// Finds twist bones. A twist bone lies between its parent and a sibling, and has no children.
+// For each bone, returns true if it is a twist bone. A twist bone has no children. Its name
+// says so, or it lies between its parent and a sibling.
 std::vector<char> helpers(const SkinnedMesh& mesh) {
   const std::size_t bones = mesh.bones.size();
   std::vector<char> helper(bones, 0), has_child(bones, 0);
@@ -209,7 +210,7 @@ std::vector<std::int32_t> parents_by_skin(const SkinnedMesh& mesh, const RigCorr
   for (const std::uint32_t b : parents_first(parent)) {
     if (!live[b] || fixed[b] || std::int32_t(b) == root) continue;
     const std::int32_t above = parent[b];
-    // If the parent has skin and is not the rig's root, the rig's hierarchy is kept.
+    // If the parent has skin and is not the rig's root, the bone keeps its parent.
     if (above >= 0 && skin.count[std::size_t(above)] > 0 && parent[std::size_t(above)] >= 0) continue;
     const std::vector<char> branch = branch_of(parent, b);
     Holder holder = holder_by_edges(contacts, parent, branch, b);
@@ -236,7 +237,8 @@ Vec3 mirrored_point(const BodySides& sides, Vec3 p) {
   return p;
 }
 
-// Pairs each bone with the bone nearest to its mirror image, if both choose each other.
+// Each bone chooses the bone that is nearest to its mirror image. Two bones that choose each other become
+// partners.
 void pair_bones(const SkinnedMesh& mesh, const std::vector<char>& live, const std::vector<Vec3>& tip,
                 std::span<const std::int32_t> parent, BodySides& sides) {
   const std::size_t bones = mesh.bones.size();
@@ -267,8 +269,8 @@ void pair_bones(const SkinnedMesh& mesh, const std::vector<char>& live, const st
     if (choice[b] >= 0 && choice[std::size_t(choice[b])] == std::int32_t(b)) sides.partner[b] = choice[b];
 }
 
-// Returns the position of each bone's skin. If a bone has no skin, uses the skin of the branch below it, or
-// else the joint itself.
+// For each bone, returns the mean position of the skin of this bone and of all bones below it. If none of
+// them has skin, returns the bone's joint.
 std::vector<Vec3> bone_tips(const SkinnedMesh& mesh, const BoneSkin& skin,
                             std::span<const std::int32_t> parent) {
   const std::vector<std::uint32_t> order = parents_first(parent);

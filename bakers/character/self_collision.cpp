@@ -22,8 +22,8 @@ bool related(const BodyTree& tree, std::size_t a, std::size_t b) {
   return false;
 }
 
-// Returns the index of the hand that each bone belongs to, or -1. All bones below one forearm have the same
-// index.
+// For each bone, returns the hand that it belongs to, or -1. A hand has the index of the forearm that it
+// hangs on.
 std::vector<std::int32_t> hands_of_bones(const BodyTree& tree, std::span<const Joint> joints) {
   std::vector<std::int32_t> hand(joints.size(), -1);
   for (const std::uint32_t b : tree.order) {
@@ -44,15 +44,15 @@ float overlap(Vec3 a, float radius_a, Vec3 b, float radius_b) {
 SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                              const RigCorrections& corrections)
     : spheres_(initial_spheres(mesh, vertex_area, 100)) {
-  // On the skin of a round limb, the standard deviation of the points is the limb's radius divided by
-  // sqrt(2).
+  // The radius of an initial sphere is a standard deviation. For points on the skin of a round limb, this is
+  // the limb's radius divided by sqrt(2).
   for (InitialSphere& s : spheres_) s.radius *= 1.414f;
   const std::vector<Joint> joints = joint_roles(mesh, corrections);
   const BodyTree tree = body_tree(mesh, joints);
   const std::vector<std::int32_t> hand = hands_of_bones(tree, joints);
   for (std::size_t i = 0; i < spheres_.size(); ++i)
     for (std::size_t j = i + 1; j < spheres_.size(); ++j) {
-      // In every fist, fingers lie on each other and on the palm.
+      // Skips pairs within one hand, because fingers touch each other and the palm in every fist.
       if (hand[spheres_[i].bone] >= 0 && hand[spheres_[i].bone] == hand[spheres_[j].bone]) continue;
       if (related(tree, spheres_[i].bone, spheres_[j].bone)) continue;
       pairs_.push_back({std::uint16_t(i), std::uint16_t(j)});

@@ -199,7 +199,8 @@ std::size_t beside(std::size_t at, std::size_t size) {
   return (at / 2 + (at % 2 ? 1 : size - 1)) % size;
 }
 
-// Divides sums to get means. Empty texels get the value of the coarser level, interpolated linearly.
+// Divides the sums by the weights, which gives means. Empty texels get the linearly interpolated values of
+// the coarser level.
 void push(const std::vector<Size>& sizes, const Levels& weights, Levels& levels) {
   for (std::size_t l = sizes.size(); l-- > 0;) {
     const Size fine = sizes[l];

@@ -92,8 +92,8 @@ void fit_image(const std::vector<Taps>& taps, const std::vector<float>& shown, s
   }
 }
 
-// Blurs a repeating tile along one side by a Gaussian with a width in texels. `stride` and `count` describe
-// the texels along this side.
+// Blurs a repeating tile along one side. `texels` is the standard deviation of the Gaussian. The side has
+// `count` texels with a distance of `stride` values between them.
 std::vector<float> blurred(const std::vector<float>& image, std::size_t count, std::size_t stride,
                            float texels) {
   const auto reach = long(std::ceil(3 * texels)), side = long(count);
@@ -116,7 +116,8 @@ std::vector<float> smooth(const RawMaterial& raw, const std::vector<float>& heig
   return blurred(blurred(heights, raw.height, 1, texels), raw.width, raw.height, texels);
 }
 
-// Returns sums of red, green and blue for at most eight lights, which are enough to judge a relief.
+// Returns images for at most eight lights, which are enough to judge a relief. A value is the sum of red,
+// green and blue.
 std::vector<float> few_rows(const RawMaterial& raw) {
   const std::size_t each = raw.views.size() * raw.texels();
   const std::size_t stride = std::max<std::size_t>((raw.lights.size() + 7) / 8, 1);
@@ -130,7 +131,7 @@ std::vector<float> few_rows(const RawMaterial& raw) {
 
 constexpr std::size_t folds = 4;
 
-// Predicts the views of a fold from the other views on a relief, and returns the squared error.
+// Predicts the views of one fold from all other views, with the given relief. Returns the squared error.
 double fold_error(const RawMaterial& raw, const Relief& relief, const std::vector<float>& shown,
                   const std::vector<float>& moved, std::size_t fold) {
   std::vector<Vec3> known, held;

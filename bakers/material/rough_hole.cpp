@@ -23,8 +23,8 @@ struct IsoGrid {
   float bottom = -0.1f, top = 0.1f;
 };
 
-// Six tetrahedra around the main diagonal of a cube. Corners are numbered x + 2 y + 4 z. The faces of
-// neighbouring cubes match.
+// Splits a cube into six tetrahedra around its main diagonal. The corner (x, y, z) has the index x + 2 y + 4
+// z. The triangles on the faces of neighbouring cubes match.
 constexpr int tetrahedra[6][4] = {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7},
                                   {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}};
 
@@ -61,7 +61,7 @@ class Marching {
 
   Corner corner(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
     const std::uint32_t n = grid_.cells;
-    // After the last cell, the values repeat, but the positions continue.
+    // Corners after the last cell have the values of the first corners, but positions in the next tile.
     return {(std::uint64_t(z) * (n + 1) + y) * (n + 1) + x, point(x, y, z),
             value_[(std::size_t(z) * n + y % n) * n + x % n]};
   }
@@ -102,7 +102,7 @@ class Marching {
     add({a, b, edge_vertex(*apex, base[2], surface)}, inside[0].position, surface);
   }
 
-  // Orients the triangle so that the inner point is behind it.
+  // Adds the triangle, oriented so that the inner point is behind it.
   void add(std::array<std::uint32_t, 3> t, Vec3 inner, MesoSurface& surface) const {
     const Vec3 a = surface.position[t[0]];
     const Vec3 normal = cross(surface.position[t[1]] - a, surface.position[t[2]] - a);
@@ -115,9 +115,9 @@ class Marching {
   std::unordered_map<std::uint64_t, std::uint32_t> vertex_;
 };
 
-// `field` must be positive inside, have the period 1 along x and y, and be negative at the bottom and the
-// top. Its gradient gives the normals. `albedo` is evaluated at each vertex. Opposite sides of the tile match
-// vertex by vertex.
+// `field` must be positive inside the solid and negative at the bottom and the top. It must have the period 1
+// along x and y. The normals come from its gradient. `albedo` is evaluated at each vertex. In the result,
+// each vertex on a side of the tile has a counterpart on the opposite side.
 MesoSurface extract_isosurface(const std::function<float(Vec3)>& field,
                                const std::function<Vec3(Vec3)>& albedo, const IsoGrid& grid) {
   MesoSurface surface;

@@ -13,13 +13,13 @@
 namespace nook::bake::material {
 namespace {
 
-// Number of tiles on each side of the middle tile. A ray with a tilt of 80 degrees crosses a structure with a
-// height of half a tile within three tiles. Only inter-reflection traces flatter rays. They count as open
-// beyond these tiles.
+// Number of copies on each side of the middle tile. A ray with a tilt of 80 degrees crosses a structure with
+// a height of half a tile within three tiles. Only inter-reflection traces flatter rays. Such a ray meets
+// nothing beyond these tiles.
 constexpr int copies = 3;
 
-// In tiles. It must be far smaller than a texel, and far larger than the rounding error of coordinates up to
-// `copies`.
+// How far a ray starts from the surface, in tiles. It must be far smaller than a texel, and far larger than
+// the rounding error of coordinates up to `copies`.
 constexpr float origin_offset = 2e-5f;
 
 std::vector<Vec3> copy_offsets() {

@@ -29,7 +29,8 @@ float level_height(float level) {
 
 // Returns the variance, over views, of the colours that would be seen at a texel if it had this height.
 float disagreement(const RawMaterial& raw, std::size_t texel, float height) {
-  constexpr float lowest_view = 0.6f;  // views beyond 53 degrees see too few common points
+  // Leaves out views beyond 53 degrees from the normal. They see too few points that other views see too.
+  constexpr float lowest_view = 0.6f;
   const float x = (float(texel / raw.height) + 0.5f) / float(raw.width),
               y = (float(texel % raw.height) + 0.5f) / float(raw.height);
   const std::size_t stride = std::max<std::size_t>(raw.lights.size() / 8, 1);

@@ -106,7 +106,8 @@ class Column {
   std::uint32_t samples_;
 };
 
-// Returns the heights at which vertical rays through the samples of each texel first meet the surface.
+// For each texel, traces vertical rays from above through its samples. Returns the mean height at which they
+// first meet the surface.
 std::vector<float> heights_from_above(const TiledScene& scene, const TraceSettings& s) {
   const float start = scene.top() + 1e-3f;
   std::vector<float> heights(std::size_t(s.width) * s.height), coverage(heights.size());

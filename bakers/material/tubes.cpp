@@ -11,8 +11,8 @@
 namespace nook::bake::material {
 namespace {
 
-// A tube along a curve that closes on the torus: the end minus the start is a whole number of tiles along x
-// and y. The curve must not be vertical anywhere.
+// A tube along a curve that continues in the next tiles: its end minus its start must be a whole number of
+// tiles along x and y. The curve must not be vertical anywhere.
 struct Tube {
   std::function<Vec3(float t)> centre;                // t in [0, 1]
   std::function<float(float t, float angle)> radius;  // relative to the half axes; angle 0 points sideways
@@ -21,8 +21,8 @@ struct Tube {
   std::uint32_t segments = 64, sides = 12;
 };
 
-// The cross-section is always upright, so that the frame at the end of the curve equals the frame at its
-// start. A parallel-transported frame would be twisted at the end.
+// Keeps the cross-section upright, so that it is the same at the end of the curve as at the start. With
+// parallel transport of the frame, it would be twisted at the end.
 Vec3 surface_point(const Tube& tube, float t, float angle) {
   const float step = 0.25f / float(tube.segments);
   // Differences wrap at the ends, because the curve continues in the next tile.
