@@ -36,7 +36,7 @@ std::vector<Point> points_round(Vec3 centre, float radius, std::size_t count, st
     p.position = centre + distance * sphere_direction(u, v);
     const float s = random.unit(), t = random.unit();
     p.normal = sphere_direction(s, t);
-    // Half of the normals face the body, because only those points have much occlusion.
+    // Turns normals that face away from the body, because points with such normals have little occlusion.
     if (dot(p.normal, centre - p.position) < 0) p.normal = -p.normal;
   }
   return points;
@@ -124,8 +124,8 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
     }
   }
   if (equations == 0) return;
-  // The ridge pulls the weights slightly towards one common value, so that spheres with nearly the same
-  // effect get equal weights.
+  // The ridge pulls all weights slightly towards a common value. Without it, spheres with nearly the same
+  // effect could get very different weights.
   const double common = std::max(0.0, right.sum() / std::max(gram.sum(), 1e-30));
   const double pull = 1e-3 * gram.trace() / double(spheres);
   gram.diagonal().array() += pull;

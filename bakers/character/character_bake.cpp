@@ -76,8 +76,8 @@ std::size_t hold_out(std::vector<Pose>& poses) {
 // With this many rays, the noise is far below the error of any fit.
 constexpr std::uint32_t precise_rays = 512;
 
-// Takes evenly spread fitted poses and traces them again with many rays. Takes at most 24 poses, and at most
-// a quarter of the rays that the fit itself uses.
+// Picks fitted poses at even intervals and traces them again with many rays. Picks so many poses that this
+// takes at most a quarter of the fit's rays, but at least 4 and at most 24.
 TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const StandIns& stand_ins,
                           const BakeSettings& settings, const Progress& progress) {
   const std::size_t affordable = set.fitted() * settings.rays / (4 * precise_rays);
@@ -100,8 +100,8 @@ std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
   return weight;
 }
 
-// Settings for non-negative least squares over all candidates of a vertex. There are no anchors for other
-// casters, and an entry is kept even if it gains little.
+// Settings for non-negative least squares over all candidates of a vertex. No key points are kept for the
+// sake of other casters (anchors), and entries are kept even if they gain little.
 LinearFitSettings plain_linear_fit(std::size_t entries) {
   LinearFitSettings plain;
   plain.entries = entries;
@@ -213,8 +213,8 @@ void fit_both_layers(Fit& fit, const TrainingSet& set, const BakeSettings& setti
     fit_by_blocks(fit, set, settings, report, progress);
 }
 
-// Returns the exponent whose short fit has the lowest error on held-out poses. Both layers adapt to the
-// exponent. So the error is flat near its minimum, and a coarse grid is sufficient.
+// Returns the exponent whose short fit has the lowest error on held-out poses. A coarse grid of exponents is
+// sufficient, because both layers adapt to the exponent, so that the error changes little near its minimum.
 float learned_gamma(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
                     const Candidates& candidates, const FitState& initial, const BakeProgress& progress) {
   BakeSettings brief = settings;

@@ -34,7 +34,8 @@ KeyPoint key_point_of(const FitState& state, std::size_t k) {
   return p;
 }
 
-// Among the vertex's entries, returns the one with the nearest surface frame in position and direction.
+// Returns the key point, among those that a vertex uses, whose surface position and normal are nearest to the
+// given ones.
 std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, Vec3 position, Vec3 normal) {
   constexpr float metres_of_a_normal = 0.1f;
   std::size_t nearest = 0;
@@ -52,9 +53,9 @@ std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, V
   return nearest;
 }
 
-// Sets the position and normal at which other casters darken a key point. It is the mean of the nearest
-// vertices among those that use the key point, found by k-means. The mean of all these vertices would be a
-// position inside the body with a blurred normal.
+// Sets the surface position and normal of each key point, at which other casters darken it. K-means splits
+// the vertices among the key points that they use, and each key point gets the mean of its vertices. The mean
+// of all vertices that use a key point would lie inside the body and have a blurred normal.
 void set_surface_frames(CharacterModel& model, const SkinnedMesh& mesh, std::span<const float> vertex_area,
                         std::span<const Vec3> vertex_normal) {
   for (KeyPoint& p : model.key_points) {
@@ -247,8 +248,8 @@ std::vector<Neighbourhood> neighbourhoods(const SkinnedMesh& mesh, double share)
   return out;
 }
 
-// Marks vertices that are within the tolerance of nook_model_match_vertices of each other but have different
-// weights. The match may confuse them, and they move apart in a pose.
+// Marks each vertex that has a vertex with other weights within the tolerance of nook_model_match_vertices.
+// The match may confuse these two vertices, but they move apart in a pose.
 std::vector<bool> ambiguous_vertices(const SkinnedMesh& mesh) {
   std::vector<bool> out;
   for (const Neighbourhood& n : neighbourhoods(mesh, 1e-4)) out.push_back(n.has_other_weights);

@@ -200,8 +200,8 @@ NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> 
   count = std::min(count, key_points.size());
   NearKeyPoints nearest{std::vector<std::uint16_t>(mesh.vertex_count() * count),
                         std::vector<float>(mesh.vertex_count() * count)};
-  // A turn of the normal by 90 degrees, or a full change of bone, counts like this distance in metres in a
-  // body about 1.7 m tall.
+  // A normal that differs by 90 degrees counts like `normal_metres` of distance, and entirely different bones
+  // count like `weight_metres`. This is for a body about 1.7 m tall.
   constexpr float normal_metres = 0.04f, weight_metres = 0.15f;
   constexpr std::size_t block = 256;
   tbb::parallel_for(std::size_t(0), (mesh.vertex_count() + block - 1) / block, [&](std::size_t b) {
@@ -222,7 +222,7 @@ NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> 
       }
       for (int s = 0; s < SkinWeights::max_bones; ++s) dense[own.bone[s]] = 0;
       std::partial_sort(distance.begin(), distance.begin() + std::ptrdiff_t(count), distance.end());
-      // The nearness falls to 0.5 at the distance of the third key point, so that weights change smoothly
+      // The nearness is 0.5 at the distance of the third nearest key point, so that weights change smoothly
       // between clusters.
       const float reach2 = std::max(distance[std::min<std::size_t>(2, count - 1)].first, 1e-8f);
       for (std::size_t c = 0; c < count; ++c) {
@@ -240,8 +240,8 @@ std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<
   std::vector<float> squared(vertices);
   for (std::size_t i = 0; i < vertices; ++i)
     for (float w : mesh.weights[i].weight) squared[i] += w * w;
-  // Inverse squared width of the Gaussian on the distance between weight vectors. This distance is at most
-  // sqrt(2).
+  // The Gaussian depends on the distance between weight vectors, which is at most sqrt(2). This is its
+  // inverse squared width.
   constexpr float inverse_width2 = 1 / 0.1f;
   std::vector<Vec3> normal(vertices);
   constexpr std::size_t block = 64;

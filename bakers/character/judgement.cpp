@@ -18,10 +18,11 @@ namespace nook::bake {
 namespace {
 
 constexpr std::size_t wished_poses = 60, least_of_clip = 4, most_poses = 240;
-// Rays per vertex, over all poses together. A standard bake fits to ten times as many rays.
+// Rays per vertex, over all poses together. A standard bake fits to about ten times as many rays.
 constexpr std::size_t most_rays = 6000, least_rays = 2000;
 constexpr double visible_truth = double(hidden_below);
-// A clip is worse than a static bake only if its error is larger by at least one step of an 8-bit image.
+// Squared error. A clip counts as worse than a static bake only if its squared error is larger by at least
+// this, which is one step of an 8-bit image.
 constexpr double least_excess = 1.0 / (255.0 * 255.0);
 constexpr double torn_limit = 5e-4;
 

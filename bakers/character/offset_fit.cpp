@@ -59,8 +59,8 @@ Line line_of(std::span<const Sample> samples, double old_bias, double mean, cons
   return line;
 }
 
-// The squared error is a convex function of the line's parameters. It is quadratic as long as the set of
-// clamped samples does not change. So Newton's method ends after a few rounds.
+// Fits a line by Newton's method. The squared error is convex, and quadratic as long as the set of clamped
+// samples does not change. So a few rounds are enough.
 Line fitted_line(std::span<const Sample> samples, double old_bias) {
   constexpr int rounds = 12;
   double mean = 0;

@@ -192,7 +192,7 @@ std::vector<std::int32_t> parents_of_person(const SkinnedMesh& mesh, std::span<c
   for (std::size_t b = 0; b < joints.size(); ++b) {
     const std::int32_t next = joints[b].continuation;
     if (next < 0 || tree.parent[std::size_t(next)] == std::int32_t(b)) continue;
-    // Skip this if the limb is below its own end, because the result would be a cycle.
+    // Keeps the parent if the limb is a descendant of its own end. Otherwise, there would be a cycle.
     if (!is_below(tree, b, std::size_t(next))) tree.parent[std::size_t(next)] = std::int32_t(b);
   }
   return tree.parent;
@@ -233,8 +233,8 @@ bool is_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
 
 namespace {
 
-// If the geometry shows a limb, the geometry decides. For a single part of a body, such as a hand or an arm,
-// names are more reliable.
+// Uses the roles of the geometry if it shows a limb. For a mesh that is only a part of a body, such as a hand
+// or an arm, names are more reliable.
 std::vector<Joint> roles_of_other_body(const SkinnedMesh& mesh, std::vector<Joint> named,
                                        const RigCorrections& corrections) {
   std::vector<Joint> joints = roles_by_geometry(mesh, corrections);

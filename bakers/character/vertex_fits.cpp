@@ -32,7 +32,7 @@ LinearLayerFit fitted_layer(const CharacterModel& model, const FitState& state, 
                           settings);
 }
 
-// Copies everything that is the same for all meshes of the rig, including the caster weights and the
+// Copies everything that all meshes of the rig have in common. This includes the caster weights, and the
 // positions at which other casters darken key points.
 void take_rig(const CharacterModel& model, CharacterModel& out) {
   out.kernel = model.kernel;
