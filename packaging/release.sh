@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# Makes a release of the committed tree in a clean folder, and runs programs of consumers against what it made.
+# Builds a release of the committed tree in a clean folder, and tests it with example consumer programs.
 #   packaging/release.sh [--only PART,...] [FOLDER]
-# Parts: source, python, blender, windows, debian, web, in this order; checksums and third-party notices always. A part whose tools are
-# missing is left out and named at the end; a part that fails ends the script. FOLDER (default: build-release) is emptied; the
-# files of the release end in FOLDER/release. NOOK_RELEASE (default: the version of nook.h) is the version in their names, such as 1.0.0-rc1.
-# It refuses a commit whose sources have not passed the runs that docs/platforms.md lists; docs/platforms_run.py makes them.
-# Files are the same on each run: their times are SOURCE_DATE_EPOCH, by default the time of the commit.
+# The parts are built in this order: source, python, blender, windows, debian, web. Checksums and third-party notices are always
+# written. If the tools for a part are missing, the script skips the part and names it at the end. If a part fails, the script stops.
+# The script empties FOLDER (default: build-release) and writes the files of the release to FOLDER/release. File names contain the
+# version NOOK_RELEASE, such as 1.0.0-rc1 (default: the version in nook.h).
+# The script refuses a commit that has not passed the platform tests in docs/platforms.md. Run them with docs/platforms_run.py.
+# Every run makes identical files. Their timestamps are SOURCE_DATE_EPOCH, by default the time of the commit.
 set -euo pipefail
 root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 parts=source,python,blender,windows,debian,web
@@ -22,7 +23,7 @@ jobs=${NOOK_JOBS:-$(nproc)}
 name=nook-$version
 left_out=()
 
-# The checks of whole platforms have been run with these sources.
+# Checks that the platform tests have been run with these sources.
 "$root/docs/platforms_run.py" --check
 
 rm -rf "$out"
@@ -41,7 +42,7 @@ has() {  # PART COMMAND...
   echo "== $part"
 }
 
-# The same bytes for the same files: sorted names, one time, no owner.
+# Sorted names, a fixed time and no owner make the archive reproducible.
 archive() {  # ARCHIVE FOLDER NAME: FOLDER/NAME as .tar.gz or .zip
   case $1 in
     *.tar.gz) tar c -C "$2" --sort=name --mtime="@$SOURCE_DATE_EPOCH" --owner=0 --group=0 --numeric-owner "$3" | gzip -9n > "$1" ;;
@@ -49,7 +50,7 @@ archive() {  # ARCHIVE FOLDER NAME: FOLDER/NAME as .tar.gz or .zip
   esac
 }
 
-# The licences of what the files of the release contain or were compiled with.
+# Writes the licences of all third-party code that the release contains or was compiled with.
 notices() {
   local package file
   {
@@ -78,20 +79,20 @@ source_archive() {
 
 python_module() {
   local python=python3 module=$out/python-consumer
-  # Only the system's interpreter may have numpy.
+  # Uses the system's interpreter, because others may not have numpy.
   "$python" -c "import numpy" 2> /dev/null || python=/usr/bin/python3
   "$python" "$tree/packaging/python/read_headers.py" --check
   "$python" "$tree/packaging/python/make_wheel.py" "$version" "$out/release"
   mkdir -p "$module"
   "$python" -m zipfile -e "$out"/release/nook_ao-*.whl "$module"
-  # Layouts need only a C compiler; with a library in NOOK_LIBRARY, the whole module runs.
+  # The test of struct layouts needs only a C compiler. If NOOK_LIBRARY names a library, the whole module is tested.
   (cd "$module" && PYTHONPATH=$module "$python" "$tree/tests/python/layouts_test.py")
   if [ -n "${NOOK_LIBRARY:-}" ]; then (cd "$module" && PYTHONPATH=$module "$python" "$tree/tests/python/module_test.py"); fi
 }
 
 blender_addon() {
   python3 "$tree/packaging/blender/make_addon.py" "$version" "$out/release"
-  # With a built command and library, Blender installs it, bakes a character and compares the colours.
+  # If the command and the library are built, Blender installs the add-on, bakes a character and compares the colours.
   if [ -n "${NOOK_TOOL:-}" ] && [ -n "${NOOK_LIBRARY:-}" ] && command -v blender > /dev/null; then
     "$root/tests/blender.sh" --addon "$out/release/nook-blender-$version.zip" > "$out/blender.log" 2>&1 || { tail -20 "$out/blender.log"; return 1; }
     tail -1 "$out/blender.log"
@@ -115,7 +116,7 @@ windows_sdk() {
 }
 
 debian_packages() {
-  # tests/packaging.sh builds them from the commit, checks them by lintian and runs programs against them.
+  # tests/packaging.sh builds the packages from the commit, checks them with lintian and runs programs that use them.
   (cd "$out" && CMAKE_C_COMPILER_LAUNCHER=${NOOK_LAUNCHER:-} CMAKE_CXX_COMPILER_LAUNCHER=${NOOK_LAUNCHER:-} \
     NOOK_PACKAGES_DIR="$out/packages" "$root/tests/packaging.sh")
   cp "$out"/packages/debian/*.deb "$out/release/"

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""zip_folder.py ARCHIVE FOLDER NAME: FOLDER/NAME as a .zip file.
+"""zip_folder.py ARCHIVE FOLDER NAME: writes FOLDER/NAME as a .zip file.
 
-Its bytes depend only on the files and on a time: SOURCE_DATE_EPOCH, or else the commit's time, or else the earliest time that
-.zip files can store.
+The archive's bytes depend only on the files and on one timestamp. The timestamp is SOURCE_DATE_EPOCH if it is set, or else the
+time of the commit. Without a commit, it is the earliest time that .zip files can store.
 """
 import functools
 import os
@@ -18,7 +18,7 @@ EARLIEST_S = 315532800  # 1980
 
 @functools.lru_cache(maxsize=None)
 def release_time():
-    """Seconds since 1970."""
+    """Returns the timestamp of all files in the archive, in seconds since 1970."""
     given = os.environ.get("SOURCE_DATE_EPOCH")
     if given is None:
         command = ["git", "-C", str(pathlib.Path(__file__).resolve().parent), "log", "-1", "--format=%ct"]
@@ -30,7 +30,7 @@ def release_time():
 
 
 def add(archive, path, name):
-    """A file with the time of the release and no owner."""
+    """Adds a file to the archive, with the time of the release and without an owner."""
     info = zipfile.ZipInfo(name, time.gmtime(release_time())[:6])
     info.compress_type = zipfile.ZIP_DEFLATED
     info.external_attr = 0o644 << 16

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
-"""make_addon.py VERSION FOLDER: the add-on with the Python module inside, as FOLDER/nook-blender-VERSION.zip.
+"""make_addon.py VERSION FOLDER: packs the add-on and the Python module into
+FOLDER/nook-blender-VERSION.zip.
 
-Its bytes are the same for the same sources and SOURCE_DATE_EPOCH.
+The same sources and the same SOURCE_DATE_EPOCH give the same bytes.
 """
 import ast
 import pathlib
@@ -18,7 +19,7 @@ MODULE = HERE.parent / "python/nook"
 
 
 def read_addon_version():
-    """The version that Blender shows."""
+    """Returns the add-on version that Blender shows."""
     tree = ast.parse((HERE / "nook_ao/__init__.py").read_text(encoding="utf-8"))
     info = next(ast.literal_eval(node.value) for node in tree.body if isinstance(node, ast.Assign) and node.targets[0].id == "bl_info")
     return ".".join(map(str, info["version"]))

@@ -36,7 +36,7 @@ def _round(lane, word):
 
 
 def _plain_xxh64(data):
-    """Computes XXH64 with seed 0 by its specification, in some tenths of a second for a megabyte."""
+    """Computes XXH64 with seed 0 by its specification, in a few tenths of a second per megabyte."""
     whole = len(data) & ~31
     if whole:
         lanes = [(P1 + P2) & MASK, P2, 0, -P1 & MASK]
@@ -65,7 +65,7 @@ def _plain_xxh64(data):
 
 
 def checksum(data):
-    """XXH64 with seed 0."""
+    """Computes XXH64 with seed 0, by a library if one is installed."""
     try:
         import xxhash
         return xxhash.xxh64_intdigest(data)
@@ -143,10 +143,10 @@ def _write_whole(path, data):
 
 
 def hills(texels, lights):
-    """lights x 3 x texels x texels: the radiance of hills that look the same from everywhere."""
+    """Returns the radiance of matt hills, lights x 3 x texels x texels. The radiance does not depend on the view."""
     turn = 2 * numpy.pi * (numpy.arange(texels) + 0.5) / texels
     x, y = numpy.meshgrid(turn, turn, indexing="ij")
-    # Of the heights 0.05 (cos 2 x + cos y), in tiles.
+    # Slopes of the height field 0.05 (cos 2 x + cos y). Heights are in tiles.
     slope_x, slope_y = -0.1 * 2 * numpy.pi * numpy.sin(2 * x), -0.05 * 2 * numpy.pi * numpy.sin(y)
     normal = numpy.stack([-slope_x, -slope_y, numpy.ones_like(x)]) / numpy.sqrt(1 + slope_x**2 + slope_y**2)
     irradiance = numpy.clip(numpy.tensordot(lights, normal, 1), 0, None)

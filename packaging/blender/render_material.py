@@ -20,7 +20,7 @@ import raw_material  # noqa: E402
 
 
 def repeat(scene, tile, repeats):
-    """Instances of all visible objects around the tile."""
+    """Adds instances of all visible objects around the tile."""
     kinds = {"MESH", "CURVE", "CURVES", "SURFACE", "META", "FONT", "VOLUME", "EMPTY"}
     whole = bpy.data.collections.new("tile")
     for thing in list(scene.objects):
@@ -53,8 +53,8 @@ def add_sun(scene):
 
 
 def add_camera(scene, tile):
-    """A parallel camera whose picture lies in the plane z = 0 whatever its direction: that needs a shear, which only the
-    matrix of a parent can hold."""
+    """Adds an orthographic camera whose image plane is z = 0 for every view direction. This needs a shear, which only the
+    matrix of a parent object can represent."""
     lens = bpy.data.cameras.new("view")
     lens.type, lens.ortho_scale = "ORTHO", tile
     camera, parent = bpy.data.objects.new("view", lens), bpy.data.objects.new("view", None)
@@ -93,7 +93,8 @@ def set_up(scene, texels, samples):
 
 
 def rendered(scene, path):
-    """4 x width x height: what is seen times its share, and the share of the texel in which the surface is met."""
+    """Returns an array of 4 x width x height: the colour times the coverage, and the coverage. The coverage is the fraction of the
+    texel's area in which the view sees the surface."""
     scene.render.filepath = path
     bpy.ops.render.render(write_still=True)
     image = bpy.data.images.load(path)
@@ -106,7 +107,8 @@ def rendered(scene, path):
 
 
 def filled(seen):
-    """3 x width x height: the colour of what is met; gaps take the mean of their neighbours, from their border inwards."""
+    """Returns the colour of the surface, 3 x width x height. Gaps are filled from their border inwards. Each texel of a gap gets
+    the mean of its neighbours."""
     colour, share = seen[:3].copy(), seen[3].copy()
     colour /= numpy.maximum(share, 1e-6)
     known = share > 0.02

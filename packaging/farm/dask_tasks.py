@@ -30,7 +30,7 @@ def main():
         tasks = client.map(run, lines, pure=False, resources={"bake": 1})
         line_of = {task.key: line for task, line in zip(tasks, lines)}
         for done, task in enumerate(distributed.as_completed(tasks), 1):
-            # A line whose workers die one after another raises.
+            # If several workers die while they run the same line, Dask reports the task as failed.
             code, output = task.result() if task.status == "finished" else (1, str(task.exception()) + "\n")
             if code != 0:
                 failed += 1

@@ -4,9 +4,10 @@
 #   slurm_array.sh TASKS [SBATCH OPTION...]
 #   slurm_array.sh tasks.txt --partition=bake --time=02:00:00 --mem=4G
 #
-# It prints the number of the job. Task k of the array runs line k; where the cluster allows fewer tasks (MaxArraySize), task k
-# also runs the lines k + n, k + 2n, ... of n tasks. A task ends with the exit code of its first line that failed, after all of its
-# lines ran. Slurm starts a task again if its node dies, and only then. The output of task k goes to log/JOB_k.txt beside TASKS.
+# It prints the job ID. Task k of the array runs line k. If the file has more lines than the cluster allows tasks (MaxArraySize),
+# there are n tasks, and task k also runs the lines k + n, k + 2n and so on. If a line fails, the task still runs its other lines.
+# It then ends with the exit code of the first line that failed. Slurm restarts a task only if its node dies. The output of task k
+# is written to log/JOB_k.txt beside TASKS.
 #SBATCH --job-name=nook
 #SBATCH --ntasks=1
 #SBATCH --cpus-per-task=1
@@ -17,7 +18,7 @@ set -u
 
 fail() { echo "slurm_array.sh: $*" >&2; exit 2; }
 
-# Hands this script to Slurm, which copies it; so the names are absolute.
+# Submits this script to Slurm. Slurm runs a copy of the script, so the paths must be absolute.
 submit() {  # TASKS, options...
   local tasks lines largest folder
   tasks=$(realpath -- "$1"); shift
@@ -31,7 +32,7 @@ submit() {  # TASKS, options...
   sbatch --parsable --array="1-$lines" --output="$folder/%A_%a.txt" "$@" "$0" "$tasks" "$lines"
 }
 
-# What Slurm runs: the lines of one task of the array.
+# Runs the lines of one task of the array. Slurm calls this.
 run_lines() {  # TASKS, number of tasks in the array
   local tasks=$1 step=$2 count at line code first=0
   count=$(grep -c '' < "$tasks")

@@ -10,16 +10,17 @@ import re
 import subprocess
 import sys
 
-# Help begins with sentences and the line of usage; then come titled lists, whose names and texts stand in two columns.
+# A help text begins with sentences and the usage line. Titled lists follow, with names in the first column and descriptions in the
+# second.
 TITLE = re.compile(r"(Positionals|Options|Subcommands):$")
 HEADINGS = {"Positionals": "ARGUMENTS", "Options": "OPTIONS", "Subcommands": "COMMANDS"}
 NAME_COLUMNS = 30
-# Types of values in plain words. Arguments that are needed stand without brackets in the synopsis.
+# Value types in plain words. In the synopsis, required arguments have no brackets.
 WORDS = {"UINT": "number", "INT": "number", "FLOAT": "number", "TEXT": "text", "REQUIRED": ""}
 
 
 def parse_help(text):
-    """What a help text holds: the sentences, and for each title a list of names with their texts."""
+    """Splits a help text. Returns its sentences, and for each title the list of names with their descriptions."""
     words, lists, title, lines = [], {}, None, text.splitlines()
     for at, line in enumerate(lines):
         found = TITLE.match(line)
@@ -31,7 +32,8 @@ def parse_help(text):
                 words.append(line)
         elif line.startswith("  ") and line[2:3].strip():
             name, text_begins = line.strip(), ""
-            # A name that reaches into the second column has its text on the next line; it may have one space at the border.
+            # If a name extends into the second column, its description is on the next line. Such a name may contain a space at the
+            # border of the columns.
             first, next_line = line[:NAME_COLUMNS], (lines[at + 1:at + 2] or [""])[0]
             if first.endswith("  ") or first.endswith(" ") and not next_line.startswith(" " * NAME_COLUMNS):
                 name, text_begins = first.strip(), line[NAME_COLUMNS:].strip()
@@ -43,7 +45,7 @@ def parse_help(text):
 
 
 def escaped(text):
-    """Plain words as roff: no character of them is a request or an escape."""
+    """Converts plain text to roff. Escapes all characters that roff would interpret."""
     text = text.replace("\\", "\\e").replace("-", "\\-").replace("`", "\\(ga")
     return re.sub(r"(?m)^([.'])", r"\\&\1", text)
 
@@ -67,7 +69,7 @@ def run_help(tool, command):
 
 
 def page(command, words, lists, version, related):
-    """A man page in roff."""
+    """Returns a man page in roff."""
     name, spoken = "-".join(command), " ".join(command)
     title = words[0].rstrip(".")
     title = title[0].lower() + title[1:]
@@ -95,7 +97,7 @@ def page(command, words, lists, version, related):
 
 
 def commands(tool, command=("nook",)):
-    """Every command of the tool with its help, from the tool itself downwards."""
+    """Returns the tool and all its subcommands, each with its help."""
     words, lists = parse_help(run_help(tool, command[1:]))
     if not words or not lists.get("Options"):
         raise SystemExit(f"man_pages.py: the help of {' '.join(command)} has no sentence or no options")

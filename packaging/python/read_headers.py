@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Writes nook/_layouts.py: constants, structures and functions of the public C headers as ctypes has them.
+"""Writes nook/_layouts.py: the ctypes declarations of the constants, structures and functions in the public C headers.
 
-With --check nothing is written; the exit code is 1 where the file differs from what the headers give.
-The headers are read by tests/abi/describe.py, which also guards the interface. The OpenGL headers are left out: a pipeline has no
-context, and the module's library has no OpenGL part.
+With --check, writes nothing, and exits with code 1 if the file is not up to date with the headers.
+tests/abi/describe.py parses the headers. The ABI test uses it too. The OpenGL headers are left out, because asset pipelines have
+no OpenGL context and the module's library is built without OpenGL.
 """
 import pathlib
 import re
@@ -17,7 +17,7 @@ from describe import constants, declarations  # noqa: E402
 HEADERS = ["nook", "nook_probe", "nook_character", "nook_material", "nook_bake", "experimental/nook_bake_key",
            "experimental/nook_bake_materials", "experimental/nook_calibration", "experimental/nook_debug", "experimental/nook_lod",
            "experimental/nook_match", "experimental/nook_poses", "experimental/nook_sg", "experimental/nook_trace", "experimental/nook_transfer"]
-# The functions of experimental headers that need OpenGL, which the module's library lacks.
+# Functions of experimental headers that need OpenGL. The module's library is built without OpenGL.
 LEFT_OUT = re.compile(r"nook_gl_")
 PAGE = HERE / "nook/_layouts.py"
 SCALARS = {"void": "None", "char": "ctypes.c_char", "float": "ctypes.c_float", "double": "ctypes.c_double", "size_t": "ctypes.c_size_t",
@@ -26,7 +26,7 @@ SCALARS = {"void": "None", "char": "ctypes.c_char", "float": "ctypes.c_float", "
 
 
 def ctype(text, known):
-    """The ctypes form of a C type; a pointer to what these headers do not have is a pointer to anything."""
+    """Returns the ctypes form of a C type. A pointer to a type that these headers do not define becomes c_void_p."""
     words = [w for w in re.findall(r"\w+|\*", text) if w not in ("const", "struct")]
     base, stars = words[0], words.count("*")
     if stars and base == "void":
@@ -43,13 +43,13 @@ def ctype(text, known):
 
 
 def parameter(text, known):
-    """A parameter or a field: its name and its type. Arrays of parameters are pointers."""
+    """Returns the name and the type of a parameter or a field. A parameter that is an array becomes a pointer."""
     match = re.fullmatch(r"(.*?)(\w+)((?:\[\w+\])*)", text.strip())
     return match.group(2), ctype(match.group(1), known), re.findall(r"\[(\w+)\]", match.group(3))
 
 
 def split(text, letter):
-    """Splits text at a letter, but not inside parentheses."""
+    """Splits text at a separator character, but not inside parentheses."""
     parts, depth, start = [], 0, 0
     for i, c in enumerate(text):
         depth += {"(": 1, ")": -1}.get(c, 0)

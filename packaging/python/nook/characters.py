@@ -56,7 +56,7 @@ class Character(Handle):
         arrays = {"positions": p, "triangles": integers(triangles, np.uint32, (None, 3), "triangles"), "joints": bones,
                   "weights": floats(weights, bones.shape, "weights"), "bone_parents": parents,
                   "bone_frames": floats(bone_frames, (len(parents), 3, 4), "bone_frames"), "bone_names": found}
-        # A copy must stay as the character is, whatever becomes of the caller's arrays.
+        # Copies the arrays, so that later changes by the caller do not affect copies and pickles of the character.
         return _character(cls, {name: value.copy() if isinstance(value, np.ndarray) else value for name, value in arrays.items()})
 
     def _import(self, origin: Dict[str, Any]) -> None:
@@ -68,7 +68,7 @@ class Character(Handle):
             if isinstance(source, str):
                 desc.path = source.encode("utf-8", "surrogateescape")
             else:
-                # A buffer, because ctypes makes NULL of empty bytes.
+                # Uses a buffer, because ctypes would pass empty bytes as NULL.
                 held = ctypes.create_string_buffer(source, max(len(source), 1))
                 put(desc, bytes=ctypes.cast(held, ctypes.c_void_p), byte_count=len(source))
             put(desc, meshes=name_array(origin["meshes"]), mesh_count=len(origin["meshes"]), without=name_array(origin["without"]),

@@ -18,7 +18,7 @@ from .materials import Material
 
 
 class Progress(NamedTuple):
-    """`stage` says what the job does now, in a few words for users, such as "ray tracing". `is_done` is True when the job has
+    """`stage` is a short text for users about the current step, such as "ray tracing". `is_done` is True when the job has
     ended."""
 
     stage: str
@@ -52,10 +52,11 @@ class Job(Handle):
                 self._error = error
                 return 0
 
-        # The job calls it from its own threads, so that it lives as long as the job.
+        # The job calls the progress function from its own threads, so the function must live as long as the job.
         self._report = c.nook_bake_progress_fn(report) if progress else c.nook_bake_progress_fn(0)
         desc.progress = self._report
-        # It makes poses before it returns. A job that Ctrl+C leaves behind is closed with this object.
+        # nook_bake_start makes the poses before it returns, which takes time. If Ctrl+C interrupts it, the job is closed together
+        # with this object.
         call_interruptibly("nook_bake_start", ctypes.byref(desc), ctypes.byref(self._handle), keep=(keep, self))
 
     @property
@@ -100,7 +101,7 @@ class Job(Handle):
     def wait(self) -> bytes:
         """Waits for the end and returns the bytes of the .nook file. Raises what the progress function raised, Cancelled,
         or NookError. Ctrl+C cancels the job and raises KeyboardInterrupt."""
-        # A call of C would hold back Ctrl+C until the bake has ended.
+        # Polls, because Python handles Ctrl+C only after a C call has returned. A waiting C call would last until the bake has ended.
         with self._cancelled_by_ctrl_c():
             pause = 0.001
             while not self.poll().is_done:
@@ -200,7 +201,7 @@ def _material_bake(*, meso: Optional[str] = None, btf: Any = None, coverage: Any
     kept: List[Any] = []
     own = {"struct_size", "type", "next", "meso", "btf", "coverage", "lights", "views", "method", "form", "relief", "heights",
            "progress", "progress_user"}
-    # An array gives its own size, which a setting must not contradict.
+    # The size of an array defines these counts, so they must not be passed as settings.
     own |= {"light_count"} if lights is not None else set()
     own |= {"view_count"} if views is not None else set()
     own |= {"width", "height"} if btf is not None else set()

@@ -47,7 +47,7 @@ class Material(Handle):
         points = floats(uv, (None, 2), "uv")
         sides = [floats(np.zeros_like(points) if side is None else side, (len(points), 2), name) for side, name in ((dx, "dx"), (dy, "dy"))]
         views, lights = floats(view, (len(points), 3), "view"), floats(light, (len(points), 3), "light")
-        # The structures hold floats alone, so that arrays of floats have their layout.
+        # The structures contain only floats, so arrays of floats have the same layout.
         rows = np.concatenate([points, *sides, views, lights], axis=1).astype(np.float32)
         values = np.empty((len(rows), ctypes.sizeof(c.nook_material_value) // 4), np.float32)
         pixels = ctypes.cast(rows.ctypes.data, ctypes.POINTER(c.nook_material_pixel))

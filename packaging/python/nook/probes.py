@@ -10,7 +10,7 @@ from .scenes import shared_context
 
 
 _METHODS = ("least_squares", "least_squares_non_negative", "running_average", "running_average_non_negative")
-# Methods for comparison.
+# Methods that exist only for comparison.
 _STUDIES = ("naive", "running_average_original", "moments")
 
 

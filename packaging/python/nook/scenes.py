@@ -49,7 +49,7 @@ _shared: Dict[str, Context] = {}
 
 def shared_context() -> Context:
     """The context of this module, which any thread may use."""
-    # Of two threads that come at once, setdefault takes one context, and nobody uses the other.
+    # If two threads create a context at the same time, setdefault keeps one of the two, and the other one is never used.
     return _shared.get("context") or _shared.setdefault("context", Context())
 
 
@@ -84,7 +84,7 @@ class CharacterModel(Handle):
 
     def __init__(self, data: Any) -> None:
         super().__init__()
-        # A pickle has the bytes, and the maps of remap() that followed.
+        # A pickle contains these bytes, and the maps of all later calls of remap().
         self._data = file_bytes(data, "CharacterModel")
         self._maps: Tuple[npt.NDArray[np.uint32], ...] = ()
         call("nook_model_load", shared_context().handle, self._data, len(self._data), ctypes.byref(self._handle))
@@ -249,7 +249,7 @@ class Instance:
     def link(self, caster: "Instance") -> None:
         """Lets another instance of the same scene darken this one."""
         if need(caster, Instance, "caster").scene is not self.scene:
-            # The library knows an instance by its number, which another scene has given to another one.
+            # The library identifies an instance by its number within a scene. In another scene, this number is a different instance.
             raise ValueError("caster: the instance is in another scene; add its model to this scene, and link the new instance")
         call("nook_scene_link", self.scene.handle, self.number, caster.number)
 
@@ -359,7 +359,7 @@ def evaluate_poses(model: CharacterModel, poses: Any, *, ground: Optional[Sequen
             call("nook_model_evaluate_poses", handle, None, ctypes.byref(own), end - first, 0, pointer(plane), pointer(ao[first:end]),
                  (end - first) * model.vertex_count)
         except NookError as error:
-            # The library counts from the first pose that it was given.
+            # The library's pose index is relative to the first pose of this call. Converts it to an index into all poses.
             said = re.sub(r"(?<=: pose )\d+(?=:)", lambda found: str(first + int(found.group())), str(error), count=1)
             raise NookError(error.code, said) from None
 
