@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Builds a release of the committed tree in a clean folder, and tests it with example consumer programs.
 #   packaging/release.sh [--only PART,...] [FOLDER]
-# The parts are built in this order: source, python, blender, windows, debian, web. Checksums and third-party notices are always
-# written. If the tools for a part are missing, the script skips the part and names it at the end. If a part fails, the script stops.
+# The parts are built in this order: source, python, blender, windows, debian, web. Checksums and third-party notices are
+# always written. If the tools for a part are missing, the script skips the part and names it at the end. If a part fails, the script stops.
 # The script empties FOLDER (default: build-release) and writes the files of the release to FOLDER/release. File names contain the
 # version NOOK_RELEASE, such as 1.0.0-rc1 (default: the version in nook.h).
 # The script refuses a commit that has not passed the platform tests in docs/platforms.md. Run them with docs/platforms_run.py.
@@ -79,7 +79,7 @@ source_archive() {
 
 python_module() {
   local python=python3 module=$out/python-consumer
-  # Uses the system's interpreter, because others may not have numpy.
+  # Uses the system's interpreter if the first python3 does not have numpy.
   "$python" -c "import numpy" 2> /dev/null || python=/usr/bin/python3
   "$python" "$tree/packaging/python/read_headers.py" --check
   "$python" "$tree/packaging/python/make_wheel.py" "$version" "$out/release"

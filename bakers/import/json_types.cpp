@@ -23,7 +23,7 @@ enum class Type {
   integer_map
 };
 
-// The objects of a document.
+// The kinds of JSON objects in a document.
 enum class Owner {
   document,
   scene,
@@ -50,7 +50,7 @@ struct Member {
   Owner owner;
   const char* name;
   Type type;
-  Owner inner = Owner::none;  // of an object, or of the objects of an array
+  Owner inner = Owner::none;  // the kind of the member's object, or of the objects in its array
 };
 
 // clang-format off
@@ -162,7 +162,7 @@ Type element_of(Type type) {
   }
 }
 
-// Where a value is, as in nodes[3].scale.
+// The position of a value in the document, such as nodes[3].scale.
 struct Place {
   const Place* outer = nullptr;
   const char* name = "";
@@ -224,7 +224,7 @@ class Walk {
   }
 
   void mend(Json& value) {
-    constexpr double most = 9007199254740992.0;  // 2^53: larger numbers have no digits after the point
+    constexpr double most = 9007199254740992.0;  // 2^53: larger doubles have no fractional part
     const double number = value.get<double>();
     if (!(std::abs(number) <= most) || number != std::floor(number)) return;
     value = static_cast<std::int64_t>(number);

@@ -45,7 +45,7 @@ void vertex_normals(std::span<const std::array<std::uint32_t, 3>> triangles, std
       total[v] += size;
     }
   }
-  // If the faces cancel out, the sum is only rounding and has no direction.
+  // If the normals of the faces cancel out, their sum is only a rounding error and has no direction.
   const auto has_direction = [&](std::size_t v) { return length(out[v]) > 1e-6f * total[v]; };
   bool needs_face = false;
   for (std::size_t v = 0; v < out.size(); ++v) {
@@ -100,7 +100,7 @@ std::vector<float> vertex_areas(const SkinnedMesh& mesh, std::span<const Vec3> p
 
 namespace {
 
-// Calls fault(i) for all i. Reports the first i that is true and how many are.
+// Calls fault(i) for all i. Reports the first i for which it returns true, and the number of such i.
 template <typename Fault>
 void refuse_any(std::size_t count, const char* what, nook_result code, Fault fault) {
   std::size_t first = 0;

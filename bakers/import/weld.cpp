@@ -15,12 +15,13 @@
 namespace nook::bake {
 namespace {
 
-// Finds vertices at one place whose faces look opposite ways, as on the two sides of a card.
+// Finds vertices that share a position although their faces look in opposite directions, as on the two sides
+// of a card. A place is a position together with skin weights.
 
 // Vertices that share a place, and the triangles between them.
 struct PlacedVertices {
   std::span<const Vec3> position;        // one per vertex
-  std::span<const std::uint32_t> place;  // one per vertex, from 0 up: equal numbers mean equal places
+  std::span<const std::uint32_t> place;  // per vertex, the index of its place
   std::size_t place_count = 0;
   std::span<const std::array<std::uint32_t, 3>> triangle;
 };
@@ -35,14 +36,14 @@ double dot(const Direction& a, const Direction& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-// Returns zero if the length is only the rounding of terms of this size that cancel out.
+// Returns zero if `a` is only a rounding error, that is, a sum of terms of length `size` that cancel out.
 Direction normalised(const Direction& a, double size) {
   const double length = std::sqrt(dot(a, a));
   if (!(length > 1e-6 * size)) return {};
   return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-// The result is twice as long as the area.
+// Returns the normal of a triangle. Its length is twice the triangle's area.
 Direction face_normal(std::span<const Vec3> position, const std::array<std::uint32_t, 3>& t) {
   const auto edge = [&](int end) {
     const Vec3 a = position[t[0]], b = position[t[end]];
@@ -52,7 +53,7 @@ Direction face_normal(std::span<const Vec3> position, const std::array<std::uint
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-// A triangle where it touches a place.
+// A corner of a triangle at a place.
 struct Corner {
   std::uint32_t vertex = 0;
   std::uint32_t next = 0, previous = 0;  // places
@@ -60,7 +61,8 @@ struct Corner {
   Direction direction{};                 // unit length
 };
 
-// Vertices joined into sheets. Each names another vertex of its sheet, or itself.
+// The sheets of connected vertices, as a union-find structure. Each vertex points to another vertex of its
+// sheet, or to itself.
 class Sheets {
  public:
   explicit Sheets(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
@@ -80,13 +82,13 @@ class Sheets {
 
 struct Sheet {
   Direction sum{};
-  double size = 0;  // the lengths of what was summed
+  double size = 0;  // sum of the lengths of the terms in `sum`
   Direction direction{};
   std::uint32_t side = 0;
 };
 
-// The two sheets of a side that are furthest apart, if they are opposite. Equal pairs are ordered by their
-// directions, never by their place in the list.
+// The two sheets of a side with the largest angle between them, if they are opposite. Ties are resolved by
+// the sheets' directions, and never by their order in the list.
 struct Pair {
   Direction first{}, second{};
   double cosine = 0;
@@ -118,8 +120,8 @@ void divide(std::span<Sheet> sheets) {
           sheet.side = sides;
 }
 
-// The smallest bend of a surface that continues across both edges of a corner, as a cosine, with a margin for
-// rounding.
+// The cosine of the smallest angle by which a surface bends if it continues across both edges of a corner. It
+// includes a margin for rounding.
 struct Neighbour {
   double over_next = -1, over_previous = -1;
 };
@@ -136,7 +138,8 @@ std::vector<Neighbour> straightest_neighbours(std::span<const Corner> corners) {
   return best;
 }
 
-// Returns the vertices that corners touch, ascending. Other vertices have no face, and only side 0.
+// Returns the vertices that are corners of triangles, in ascending order. All other vertices have no face,
+// and stay on side 0.
 std::vector<std::uint32_t> touched_vertices(std::span<const Corner> corners) {
   std::vector<std::uint32_t> vertices;
   for (const Corner& corner : corners) vertices.push_back(corner.vertex);
@@ -171,7 +174,7 @@ void divide_place(std::span<const Corner> corners, std::vector<std::uint32_t>& s
   for (std::uint32_t i = 0; i < vertices.size(); ++i) side[vertices[i]] = sheet[joined.find(i)].side;
 }
 
-// Items grouped by a number: group g has item[first[g]] to item[first[g + 1] - 1], in ascending order.
+// Items in groups. Group g contains item[first[g]] to item[first[g + 1] - 1], in ascending order.
 struct Groups {
   std::vector<std::uint32_t> first, item;
   std::span<const std::uint32_t> of(std::size_t group) const {
@@ -190,18 +193,18 @@ Groups group(std::size_t items, std::size_t groups, GroupOf group_of) {
   return out;
 }
 
-// Returns for each vertex the side of its place: 0 for nearly all; 1 and more if faces at one place look in
-// opposite directions.
+// Returns, for each vertex, the side of its place. Nearly all vertices are on side 0. If faces at one place
+// look in opposite directions, some vertices are on side 1 or more.
 //
-// Vertices at one place whose faces meet at an edge form a sheet, so that the tip of a cone is one sheet
-// however its faces split it. At an edge of more than two faces, each face continues with the face at the
-// smallest angle, and no sheet folds back on itself. Two sheets are opposite if their area-weighted normals
-// are more than 135 degrees apart.
+// The vertices at one place whose faces share an edge form a sheet. So the tip of a cone is one sheet, even
+// if the file has a separate vertex for each of its faces. At an edge with more than two faces, each face is
+// connected to the face at the smallest angle, and sheets never fold back on themselves. Two sheets are
+// opposite if their area-weighted normals are more than 135 degrees apart.
 //
-// A place with opposite sheets is divided between the two that are furthest apart. Each other sheet goes to
-// the nearer one, until no side holds opposite sheets. The order of vertices and triangles decides only which
-// side is 0. A place where more than 256 corners of triangles meet is left whole, which bounds the work on
-// hostile input.
+// A place with opposite sheets is split into two sides. The two sheets with the largest angle between them
+// start the sides, and each other sheet joins the nearer one. This repeats until no side contains opposite
+// sheets. The order of vertices and triangles affects only which side is 0. A place with more than 256
+// triangle corners is not split, which limits the time for malicious files.
 std::vector<std::uint32_t> sides_of_vertices(const PlacedVertices& mesh) {
   std::vector<std::uint32_t> side(mesh.place.size(), 0);
   const Groups vertices =
@@ -242,7 +245,8 @@ Vec3 without_negative_zero(Vec3 p) {
   return {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f};
 }
 
-// Equal positions with equal weights get equal numbers, counted from 0 in the order of their first vertex.
+// Vertices with equal positions and equal weights have the same place. Places are numbered from 0, in the
+// order of their first vertices.
 struct Places {
   std::vector<std::uint32_t> of_vertex;
   std::size_t count = 0;
@@ -261,8 +265,8 @@ Places find_places(const FileMesh& file) {
   return places;
 }
 
-// True if the corners are on one line within the rounding of float positions: the height is below 1e-7 of the
-// longest edge.
+// Returns true if the corners lie on one line, up to the rounding of float positions: the triangle's height
+// is less than 1e-7 of its longest edge.
 bool is_degenerate(const std::vector<Vec3>& position, const std::array<std::uint32_t, 3>& t) {
   const auto edge = [&](int a, int b) {
     const Vec3 p = position[t[a]];
@@ -278,14 +282,15 @@ bool is_degenerate(const std::vector<Vec3>& position, const std::array<std::uint
   return std::sqrt(normal) <= 1e-7 * longest;
 }
 
-// Welds the file's vertices and numbers them in the order of their first appearance.
+// Welds the file's vertices. Welded vertices are numbered in the order in which they first occur.
 void weld_vertices(const FileMesh& file, SkinnedMesh& mesh) {
   const Places places = find_places(file);
   const std::vector<std::uint32_t> side =
       sides_of_vertices({file.position, places.of_vertex, places.count, file.triangle});
   constexpr std::uint32_t none = ~0u;
-  std::vector<std::uint32_t> first(places.count, none);  // welded vertices of a place, one per side
-  std::vector<std::uint32_t> next, side_of_welded;
+  std::vector<std::uint32_t> first(places.count, none);  // per place, the first of its welded vertices
+  std::vector<std::uint32_t> next,
+      side_of_welded;  // a linked list per place, with one welded vertex per side
   mesh.file_to_welded.reserve(file.position.size());
   for (std::size_t v = 0; v < file.position.size(); ++v) {
     std::uint32_t* at = &first[places.of_vertex[v]];
@@ -327,7 +332,8 @@ SkinWeights make_weights(std::span<const std::pair<std::uint16_t, float>> influe
     out.bone[i] = kept[i].first;
     out.weight[i] = static_cast<float>(kept[i].second / sum);
   }
-  // A weight may round to nothing beside the others. It would leave a bone index behind an unused entry.
+  // A weight that is tiny relative to the others may be rounded to 0. Its bone index must then be removed
+  // too.
   for (std::size_t i = 0; i < kept.size(); ++i)
     if (!(out.weight[i] > 0)) out.bone[i] = 0;
   return out;

@@ -137,7 +137,7 @@ Vec3 point_in(const Box& box, Random& random) {
 
 struct Line {
   Vec3 eye, target;
-  float nearest;  // surfaces nearer than this block the view, metres
+  float nearest;  // metres; surfaces that are nearer block the view
   float widest = 100 * degree;
 };
 

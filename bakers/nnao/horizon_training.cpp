@@ -11,8 +11,8 @@
 namespace nook::bake::nnao {
 namespace {
 
-// The pass clamps AO when it writes it, so the error does too. The gradient ignores the clamp, so that
-// outputs outside the range still move back.
+// The pass clamps the AO that it writes, so the error is computed from clamped AO. The gradient ignores the
+// clamp, so that outputs outside the range still move back.
 float error_of(float output, float ao) {
   return std::clamp(output, 0.0f, 1.0f) - ao;
 }

@@ -78,7 +78,7 @@ double point_gradient(const Dataset& data, const PaperNormalisation& normalisati
   gather(data, point, inputs.data());
   const float keep = 1 - settings.dropout, scale = 1 / keep;
   for (std::size_t i = 0; i < input_count; i += 2) {
-    // One 64-bit random value serves for two 32-bit draws.
+    // Splits one 64-bit random value into two 32-bit random values.
     const std::uint64_t bits = random.bits();
     for (std::size_t j = 0; j < 2; ++j) {
       const bool kept = float(std::uint32_t(bits >> (32 * j)) >> 8) * 0x1p-24f < keep;

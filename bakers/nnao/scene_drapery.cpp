@@ -34,7 +34,7 @@ void add_tablecloth(TriangleSoup& soup, const Mat3x4& frame, bool round, Random&
   add_sheet(soup, 200, 50, [&](float u, float v) {
     const float angle = 6.2831853f * u, c = std::cos(angle), s = std::sin(angle);
     const float edge = round ? 1.0f : 1 / std::max({std::abs(c), std::abs(s), 0.75f});
-    const float reach = v * (radius + drop);  // along the cloth
+    const float reach = v * (radius + drop);  // distance along the cloth
     const float hang = std::max(0.0f, reach - radius);
     const float wave =
         0.28f * hang * (std::sin(float(folds) * angle + 2 * value_noise(seed, {2 * c, 2 * s, 0})) + 0.4f);

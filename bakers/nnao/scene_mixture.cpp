@@ -8,7 +8,8 @@
 namespace nook::bake::nnao {
 namespace {
 
-// A connected component of a soup: the indices of triangles that share corners, and their bounding box.
+// A connected component of a triangle soup: the indices of triangles that share corners, and their bounding
+// box.
 struct Piece {
   Vec3 low{1e9f, 1e9f, 1e9f}, high{-1e9f, -1e9f, -1e9f};
   std::vector<std::uint32_t> triangles;

@@ -87,7 +87,7 @@ void fill_inside(nook::probe::Probes& probes, const std::vector<bool>& inside) {
 namespace {
 
 constexpr float clearance_share = 0.1f;  // share of the shortest spacing
-constexpr int steps = 4;                 // in each direction along each axis
+constexpr int steps = 4;                 // number of steps in each direction along each axis
 constexpr float reach = 0.45f;           // distance of the last step, in spacings
 
 float clearance(const LitScene& scene, Vec3 position_ws) {

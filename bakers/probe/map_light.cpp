@@ -14,7 +14,7 @@ namespace {
 constexpr double finest_step = 0.1;
 
 std::uint32_t divisions(const Environment& map, const Basis& basis) {
-  float sharpest = 16;  // for harmonics and dice, which do not vary faster
+  float sharpest = 16;  // enough for spherical harmonics and dice, which never vary faster
   for (std::uint32_t i = 0; i < basis.count && basis.kind == nook::probe::BasisKind::gaussians; ++i)
     sharpest = std::max(sharpest, basis.sharpness[i]);
   const double texel = std::numbers::pi / map.height();
@@ -108,7 +108,7 @@ std::vector<Channels> moments(const Environment& map, const Basis& basis) {
 
 std::vector<Vec3> map_irradiance(const Environment& map, const Region& region,
                                  std::span<const Vec3> normals) {
-  constexpr std::size_t block = 1024;  // sums of this many floats lose no digits that matter
+  constexpr std::size_t block = 1024;  // a float sum of this many terms is precise enough
   const TexelArrays texels = texel_arrays(map, region);
   std::vector<Vec3> irradiance(normals.size());
   tbb::parallel_for(std::size_t(0), normals.size(), [&](std::size_t n) {

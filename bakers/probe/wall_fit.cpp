@@ -29,7 +29,7 @@ constexpr double plane_gain = 0.92;      // a plane must reduce the error to les
 // neighbouring cells would choose different masks, with visible seams.
 constexpr double corner_gain = 0.1;
 constexpr double small_error = 2.5e-5;  // squared relative error of 0.5 %, too small for a wall
-constexpr float dark_share = 0.1f;      // share of a cell's mean light; darker places count alike
+constexpr float dark_share = 0.1f;  // share of a cell's mean light; all darker places have the same weight
 constexpr float same_normal = 0.999f, same_offset = 0.02f;  // cosine, and spacings
 
 // A training place, and the light that each corner's probe alone would give there.
@@ -233,7 +233,7 @@ using nook::probe::Probes;
 using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr std::uint32_t order = 2, functions = nook::probe::harmonic_count(order);
-constexpr double least_light_share = 0.25;  // share of the mean light; darker places count alike
+constexpr double least_light_share = 0.25;  // share of the mean light; all darker places have the same weight
 constexpr int most_steps = 200;
 
 // The weight of each corner's probe at a place, as in `interpolate`.

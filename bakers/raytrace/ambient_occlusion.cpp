@@ -40,7 +40,7 @@ float trace_point(const RayScene& scene, Vec3 position, Vec3 normal, const Hemis
   return float(open) / float(rays);
 }
 
-// Counts the finished work, and lets the caller's progress function stop it.
+// Counts the finished work and reports it to the caller's progress function, which can stop the work.
 class Pace {
  public:
   Pace(const Progress& progress, std::size_t total) : progress_(progress), total_(total) {}
@@ -139,8 +139,9 @@ float shown_ao(const RayScene& scene, const PosedSurface& surface, std::span<con
 }
 
 // Returns points on the edges of each vertex at a quarter, half and three quarters of their length, and the
-// centroids of its triangles. Weights are the barycentric weight of the vertex times the length or the root
-// of the area that the point stands for.
+// centroids of its triangles. The weight of a point is the barycentric weight of the vertex times a length.
+// For a point on an edge, this is the length of edge that the point represents. For a centroid, it is the
+// square root of the area that the centroid represents.
 StandIns all_stand_ins(const SkinnedMesh& mesh) {
   std::vector<std::vector<StandIns::Point>> points(mesh.vertex_count());
   for (const auto& t : mesh.triangle) {
@@ -148,7 +149,8 @@ StandIns all_stand_ins(const SkinnedMesh& mesh) {
     const float size = std::sqrt(0.5f * length(cross(b - a, c - a)));
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::uint32_t v = t[corner], next = t[(corner + 1) % 3], last = t[(corner + 2) % 3];
-      // An inner edge belongs to two triangles. Each takes the edge in one direction for this vertex.
+      // An inner edge belongs to two triangles. Each of them adds the edge in one direction, so a vertex gets
+      // it once.
       const float edge = length(mesh.position[next] - mesh.position[v]);
       for (const float along : {0.25f, 0.5f, 0.75f})
         points[v].push_back({{{v, next, last}, {1 - along, along, 0}}, edge});

@@ -8,8 +8,8 @@
 namespace nook::bake {
 namespace {
 
-// These functions read and write the register with the mode. flush_bits are the bits that flush inputs and
-// results to zero.
+// These functions read and write the processor's floating-point control register. flush_bits are the bits
+// that flush inputs and results to zero.
 #if defined(__SSE2__) || defined(_M_X64)
 
 constexpr std::uint64_t flush_bits = _MM_FLUSH_ZERO_ON | _MM_DENORMALS_ZERO_ON;

@@ -39,8 +39,8 @@ Matrix surroundings(const Matrix& appearance, const ExemplarShape& shape, std::i
   return out;
 }
 
-// Returns the squared distance of two texels. If the exemplar tiles, distances wrap around, and the shorter
-// one counts.
+// Returns the squared distance of two texels. If the exemplar tiles, this is the shortest distance with
+// wrapping.
 double squared_distance(const ExemplarShape& shape, Texel a, Texel b) {
   double dx = std::abs(a.x - b.x), dy = std::abs(a.y - b.y);
   if (shape.is_tiling) {

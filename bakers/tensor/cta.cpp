@@ -86,8 +86,8 @@ Eigen::VectorXd projected_norms(const TensorView& reduced, const WorkingCluster&
   return (unfold(projected, mode) * v.transpose()).rowwise().squaredNorm().cast<double>();
 }
 
-// Returns, for each cluster, the sub-tensors that try it: its members, and all sub-tensors for which its mean
-// is one of the nearest.
+// Returns, for each cluster, the sub-tensors that could move to it: its members, and all sub-tensors for
+// which the cluster's mean is one of the nearest means.
 std::vector<std::vector<std::size_t>> tries(const WorkingFit& fit, const TensorView& reduced,
                                             std::size_t nearest) {
   const auto count = Eigen::Index(fit.membership.size()), clusters = Eigen::Index(fit.clusters.size());
@@ -168,7 +168,7 @@ double update(WorkingFit& fit, const TensorView& reduced, const ClusteredSetting
   for (std::size_t c = 0; c < fit.clusters.size(); ++c) {
     WorkingCluster& cluster = fit.clusters[c];
     report(progress, iteration, settings, c, objective);
-    if (cluster.members.empty()) {  // explains nothing
+    if (cluster.members.empty()) {  // an empty cluster does not reduce the error
       cluster.parts.core = Tensor(cluster.parts.core.dimensions);
       continue;
     }

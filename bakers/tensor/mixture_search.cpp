@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// Share of the largest eigenvalue. Because products are summed in floats, we treat clusters as linearly
-// dependent along directions with a smaller eigenvalue.
+// A share of the largest eigenvalue. Along directions with a smaller eigenvalue, we treat clusters as
+// linearly dependent, because products are summed in floats.
 constexpr double dependence = 1e-6;
 
 VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products) {
@@ -91,7 +91,7 @@ SubTensorMix search_greedy(const AtomGram& atoms, const VectorXd& products, std:
 
 SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensorMix mix) {
   const std::size_t count = mix.clusters.size();
-  // Stops after `count` exchanges in a row without a gain.
+  // Stops after `count` consecutive exchanges without a gain.
   for (std::size_t k = 0, idle = 0; idle < count; k = (k + 1) % count) {
     SubTensorMix best = mix;
     for (std::uint32_t c = 0; c < atoms.clusters; ++c) {

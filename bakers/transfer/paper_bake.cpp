@@ -50,9 +50,10 @@ constexpr std::size_t most_samples = 768;    // vertices that choose the common 
 constexpr std::size_t seed_vertices = 4096;  // vertices that choose the first clusters
 constexpr Index seed_axes = 24;
 
-// Lobes overlap, so least squares gives neighbouring lobes amplitudes of opposite signs. So an error of a
-// matrix T should only count as much as it is visible under typical light l. LightMetric is the factor C of
-// the second moment of light, S = E[l l^T] = C C^T. Then |C^T T| is the root mean square size of T^T l.
+// Lobes overlap, so a least-squares fit gives neighbouring lobes amplitudes of opposite signs, which mostly
+// cancel. We therefore weight the error of a matrix T by its visible effect under typical light l.
+// LightMetric is the factor C of the second moment of light, S = E[l l^T] = C C^T. Then |C^T T| is the root
+// mean square size of T^T l.
 struct LightMetric {
   MatrixXd root, inverse_transpose;  // C and C^-T
 };

@@ -29,7 +29,7 @@ struct Workspace {
   std::vector<float> seen, whole;  // per lobe
 };
 
-// The surroundings of the vertices.
+// The geometry that the vertices can see.
 struct Sight {
   const RayScene& scene;
   const SurfaceHoles* holes;

@@ -50,8 +50,8 @@ float bilinear(const Number* image, std::uint32_t width, std::uint32_t height, f
   return low + (high - low) * y.t;
 }
 
-// Computes the mean visibility of each texel. Values are linear between texels but the mapping is not, so a
-// texel is sampled at several points.
+// Computes the mean visibility of each texel. Values are interpolated linearly, but their mapping to
+// visibility is not linear. So each texel is sampled at several points.
 void fill_finest(const MaterialTables& tables, Vec3 view, std::vector<float>& values,
                  std::vector<float>& cover) {
   constexpr std::uint32_t points = 4;  // per side
@@ -121,7 +121,7 @@ HoleTable make_hole_table(const MaterialTables& tables) {
 
 namespace {
 
-// Corners of a triangle with their weights at a hit.
+// The corners of a triangle, and their barycentric weights at the point that a ray hits.
 struct Corners {
   std::array<std::uint32_t, 3> vertex;
   std::array<float, 3> weight;

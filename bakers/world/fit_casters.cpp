@@ -167,7 +167,7 @@ class Objective {
     Eigen::MatrixXf rows(block_rows, columns), gram(columns, columns);
     Eigen::VectorXf residual(block_rows);
     std::vector<Slopes> covered(casters.size());
-    // Points with AO see nearly every caster. Their rows are multiplied together.
+    // Nearly every caster affects the AO points. So their rows are full and are multiplied as one block.
     std::size_t count = 0;
     const auto multiply = [&] {
       if (count == 0) return;  // Eigen divides by the number of rows
@@ -344,7 +344,7 @@ std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<co
   double best_error = objective.error(casters);
   if (report) report->error_initial = best_error;
   double damping = 1e-2;
-  int stalled = 0;  // steps in a row that gained almost nothing
+  int stalled = 0;  // consecutive steps with almost no gain
   for (std::size_t step = 0; step < settings.steps && stalled < 2; ++step) {
     if (progress && !progress(total - settings.steps + step, total))
       throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting casters");

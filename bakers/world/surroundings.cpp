@@ -48,7 +48,7 @@ void spread_over(Vec3 a, Vec3 b, Vec3 c, const Call& call) {
       call(a + (float(i) / float(steps)) * (b - a) + (float(j) / float(steps)) * (c - a));
 }
 
-// The share of the points that are in a square in the middle of the floor, and half the side of that square.
+// The share of the floor's points that lie in a square at its middle, and half the side length of the square.
 constexpr double near_share = 0.75;
 constexpr float near_half_m = 1.2f;
 

@@ -50,8 +50,8 @@ Pose lying(const Pose& pose, float yaw_radians) {
   return out;
 }
 
-// Bodies fall, sleep and climb. So the body lies down in every fourth pose, and the floor comes near to every
-// part of it.
+// Bodies fall, sleep and climb. So the body lies on the floor in every fourth pose, and every part of it is
+// near the floor in some poses.
 constexpr std::size_t lying_every = 4;
 
 // Half angles of cones of light. At run time, a cone is split into 16 parts with a quarter of its angle. This
