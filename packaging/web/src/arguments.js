@@ -1,5 +1,5 @@
-// Checks of what a caller passes: each throws before anything is written to the module's memory. Messages name the function, the
-// argument, what came and what is wanted.
+// Checks of arguments. A failed check throws before anything is written to the module's memory. The message names the function, the
+// argument, the passed value and the expected value.
 import { NookError } from "./error.js";
 
 const mostNumbers = 2 ** 32;
@@ -11,7 +11,7 @@ export function refuse(call, text) {
 const tagOf = (value) => Object.prototype.toString.call(value).slice(8, -1);
 const isObject = (value) => typeof value === "object" && value !== null;
 
-// What to pass in place of an object that holds the numbers, such as those of three.js.
+// Returns a hint what to pass instead of an object that contains the numbers, such as a Vector3 of three.js.
 function cureOf(value) {
   if (typeof value.then === "function") return "await it";
   if (value.isPlane || (isObject(value.normal) && typeof value.constant === "number"))
@@ -25,7 +25,7 @@ function cureOf(value) {
   return "";
 }
 
-// "3 numbers", "a Vector3; pass its toArray()", "\"text\"": what came, for messages.
+// Describes a passed value for messages, such as "3 numbers", "a Vector3; pass its toArray()" or "\"text\"".
 export function described(value) {
   if (typeof value === "string") return JSON.stringify(value.length > 40 ? `${value.slice(0, 40)}…` : value);
   if (typeof value === "function") return "a function";
@@ -39,14 +39,14 @@ export function described(value) {
 const isList = (value) => isObject(value) && Number.isSafeInteger(value.length) && value.length >= 0 && value.length < mostNumbers &&
   !["BigInt64Array", "BigUint64Array", "String"].includes(tagOf(value));
 
-// A list of numbers: an array or a typed array.
-//   count      how many there are
-//   groupsOf   what their number is a multiple of
-//   least      how many there are at least
-//   whole      each is a whole number of 32 bits
-//   anyValue   NaN and infinity are right too
-//   optional   undefined and null are right, and mean none
-//   why        ends the sentence of what is wanted
+// Checks a list of numbers, which is an array or a typed array.
+//   count      the required length
+//   groupsOf   the length must be a multiple of this
+//   least      the minimum length
+//   whole      each number must be a 32-bit integer
+//   anyValue   NaN and infinity are allowed
+//   optional   undefined and null are allowed, and mean that there is no list
+//   why        text at the end of the message
 export function checkNumbers(call, argument, value, { count, groupsOf, least, whole, anyValue, optional, why = "" } = {}) {
   if (optional && (value === undefined || value === null)) return;
   const noun = whole ? "whole numbers" : "numbers";
@@ -63,7 +63,7 @@ export function checkNumbers(call, argument, value, { count, groupsOf, least, wh
   }
 }
 
-// One number. least: the smallest that is right.
+// Checks one number. `least` is the smallest allowed value.
 export function checkNumber(call, argument, value, { whole, least = -Infinity, optional } = {}) {
   if (optional && value === undefined) return;
   const most = whole ? 2 ** 32 - 1 : Infinity;
@@ -71,7 +71,7 @@ export function checkNumber(call, argument, value, { whole, least = -Infinity, o
   const from = least === -Infinity ? "" : ` from ${least} on`;
   refuse(call, `${argument} needs a ${whole ? "whole " : ""}number${from} (got ${described(value)})`);
 }
-// The index of something, or the number of an instance or an occluder.
+// Checks an index, or the id of an instance or an occluder.
 export const checkIndex = (call, argument, value) => checkNumber(call, argument, value, { whole: true, least: 0 });
 
 // An object of options or of members.
@@ -79,13 +79,13 @@ export function checkObject(call, argument, value, wanted = "an object") {
   if (!isObject(value) || isList(value)) refuse(call, `${argument} needs ${wanted} (got ${described(value)})`);
 }
 
-// An array of anything but numbers; each(value, argument) checks its elements.
+// Checks an array whose elements are not numbers. each(value, argument) checks one element.
 export function checkList(call, argument, value, wanted, each) {
   if (!Array.isArray(value)) refuse(call, `${argument} needs an array of ${wanted} (got ${described(value)})`);
   for (let i = 0; i < value.length; ++i) each(value[i], `${argument}[${i}]`);
 }
 
-// Where a call writes its numbers: room for `count` of them.
+// Checks the array into which a call writes `count` numbers.
 export function checkOut(call, out, count) {
   if (out === undefined || out === null) return;
   if (!["Float32Array", "Float64Array"].includes(tagOf(out)) || out.length < count)
@@ -99,7 +99,8 @@ export function checkBytes(call, argument, value) {
       typeof value?.arrayBuffer === "function" ? `a ${tagOf(value)}; pass await its arrayBuffer()` : described(value)})`);
 }
 
-// An object of WebGL, such as a WebGLTexture; undefined and null mean none. Engines have classes of their own that are called alike.
+// An object of WebGL, such as a WebGLTexture; undefined and null mean none. Engines may have their own classes
+// with the same names.
 export function checkWebGL(call, argument, value, kinds) {
   if (value === undefined || value === null) return;
   const isOne = kinds.some((kind) => tagOf(value) === kind || (globalThis[kind] && value instanceof globalThis[kind]));

@@ -4,14 +4,14 @@ import { Owned } from "./library.js";
 const floatsOfLayout = { "rows-3x4": 12, "rows-4x4": 16, "columns-4x4": 16, "columns-4x3": 12, "dual-quaternion": 8, trs: 10 };
 
 // Checks a pose such as { kind: "skinning", layout: "columns-4x4", transforms, skin, transformOfBone, place3x4, partial, strict,
-// surplus }, and gives a function that makes a nook_pose_desc of it.
+// surplus }, and returns a function that makes a nook_pose_desc of it.
 export function preparedPose(library, pose) {
   const call = library.name;
   checkObject(call, "pose", pose, "an object such as { transforms }");
   const { transforms, transformOfBone, place3x4, partial, strict, surplus, ...others } = pose;
   const { layout = "columns-4x4", stride, transformCount } = pose;
   const floats = floatsOfLayout[layout] ?? 16;
-  // Transforms that no bone takes may hold anything.
+  // Transforms that no bone uses may contain any values.
   const anyValue = Boolean(transformOfBone || surplus || stride || transformCount !== undefined);
   const why = `(${floats} for each transform of the layout "${layout}")`;
   checkNumber(call, "stride", stride, { whole: true, least: 0, optional: true });
@@ -176,7 +176,7 @@ export class CharacterModel extends Owned {
     });
   }
 
-  // A model whose vertices are those of a host's mesh, by the answer of matchVertices.
+  // Returns a model with its vertices in the order of a host's mesh. Pass the result of matchVertices.
   remap(vertices) {
     const { library } = this;
     const handle = library.call("nook_model_remap", () => {

@@ -39,13 +39,13 @@ export class Gl extends OnSurface {
     return this.surface.objectCount;
   }
 
-  // Call it on "webglcontextlost"; afterwards destroy everything, and make it anew on "webglcontextrestored".
+  // Call this on "webglcontextlost". Then destroy all objects, and create them again on "webglcontextrestored".
   contextLost() {
     this.library.check(this.library.module._nook_gl_context_lost(this.handle));
     this.surface.lose();
   }
   destroy() {
-    // After a loss that the host has not told, the library would delete objects that are gone.
+    // If the context was lost and the host has not reported it, the library would delete objects that no longer exist.
     if (this.address && this.surface.isLost) this.contextLost();
     super.destroy();
   }

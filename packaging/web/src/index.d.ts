@@ -1,6 +1,6 @@
-// nook-web: ambient occlusion for WebGL 2. The names of options are those of the C headers in camelCase, constants are words;
-// the headers in sdk/include/nook describe each of them. Lengths are in metres. Every call that fails throws NookError. Lists of
-// numbers that are too short, too long or no numbers are refused by name.
+// nook-web: ambient occlusion for WebGL 2. Options have the names of the C headers in camelCase, and constants are
+// words. The headers in sdk/include/nook describe each of them. Lengths are in metres. Every call that fails throws NookError. If
+// a list has the wrong length or contains something other than numbers, the message names the list.
 
 export class NookError extends Error {
   /** The name of the result, such as "NOOK_ERROR_BAD_FILE". */
@@ -13,16 +13,17 @@ export type Instance = number;
 export type Occluder = number;
 
 export interface LoadOptions {
-  /** Where nook.wasm is, if it does not lie beside this file; or its bytes or module. Node reads file: addresses and paths itself. */
+  /** The location of nook.wasm, or its bytes, or its compiled module. Default: beside this file. In Node, you can also pass a path
+   *  or a file: URL. */
   wasm?: string | URL | Response | Bytes | WebAssembly.Module | Promise<Response | Bytes | WebAssembly.Module>;
-  /** Takes the lines of the library's log. */
+  /** Called with each line of the library's log. */
   log?: (severity: "info" | "warning" | "error", text: string) => void;
   /** The instruction set of all objects of the context. */
   isa?: "auto" | "scalar" | "wasm128";
-  /** Units of length of your scene in a metre, such as 100; default 1. */
+  /** How many of your scene's length units make one metre, such as 100 for centimetres. Default 1. */
   unitsPerMetre?: number;
 }
-/** Loads the module of WebAssembly and makes a context in it. */
+/** Loads the WebAssembly module and creates a context in it. */
 export function load(options?: LoadOptions): Promise<Context>;
 
 declare class Owned {
@@ -77,16 +78,16 @@ export interface Pose {
   /** Bytes between transforms; 0: tightly packed. */
   stride?: number;
   transformCount?: number;
-  /** The index in the file of the skin that "skinning" takes. */
+  /** For "skinning": the index in the file of the skin that the matrices belong to. */
   skin?: number;
-  /** For each bone of the model the index of its transform, or -1; see CharacterModel.mapBones. */
+  /** For each bone of the model, the index of its transform, or -1 for none. See CharacterModel.mapBones. */
   transformOfBone?: Numbers;
   /** 3x4, row-major, applied after every transform. */
   place3x4?: Numbers;
   /** Bones without a transform keep their matrices. */
   partial?: boolean;
   strict?: boolean;
-  /** There may be more transforms than needed, as in three.js's Skeleton.boneMatrices; the first ones count. */
+  /** Allows more transforms than needed, as in three.js's Skeleton.boneMatrices. Only the first ones are used. */
   surplus?: boolean;
 }
 export interface SkinInfo {
@@ -125,12 +126,13 @@ export class CharacterModel extends Owned {
   /** Compares a pose with vertices that the host skinned itself, and names the likely fault. */
   checkPose(pose: Pose, vertices: { positions: Numbers; checkVertices?: Numbers; place3x4?: Numbers; tolerance?: number }):
     PoseCheck;
-  /** The model's vertex for each vertex of a host's mesh; 0xffffffff where none is near enough. joints and weights, which are as
-   * many for each vertex, tell vertices apart where meshes meet. indices are three for each triangle, and tell the two sides of a sharp fold apart. ambiguous counts
-   * the vertices that nothing tells apart, and text names them. */
+  /** Finds the model's vertex for each vertex of a host's mesh, or 0xffffffff if no vertex is near enough. `joints` and `weights`
+   * distinguish vertices where meshes meet. Both have the same count for each vertex. `indices` are three for each triangle, and
+   * distinguish the two sides of a sharp fold. In the result, `ambiguous` counts the vertices that nothing distinguishes, and `text`
+   * names them. */
   matchVertices(match: { positions: Numbers; normals?: Numbers; joints?: Numbers; weights?: Numbers; skin?: number; primitive?: number;
     indices?: Numbers; inRestSpace?: boolean; tolerance?: number }): { vertices: Uint32Array; unmatched: number; ambiguous: number; text: string };
-  /** A model whose vertices are those of a host's mesh. */
+  /** Returns a model with its vertices in the order of a host's mesh. */
   remap(vertices: Numbers): CharacterModel;
 }
 
@@ -142,7 +144,7 @@ export interface SceneOptions {
   lodMaxInterval?: number;
   groundRadius?: number;
   strictPoses?: boolean | number;
-  /** The change of AO, root mean square, by which far spheres may be merged; 0 merges none. */
+  /** Far spheres are merged if this changes AO by at most this root mean square error. 0 never merges spheres. */
   farError?: number;
 }
 export interface OccluderOptions {
@@ -191,8 +193,8 @@ export class Scene extends Owned {
 // ---- WebGL
 
 export interface GlOptions {
-  /** What becomes of the state of WebGL that a call touches; see docs/gl_state.md. Default "defaults". "preserve" is slow in
-   *  browsers, and cannot restore objects that the host made. */
+  /** What a call does with the WebGL state that it changes. See docs/gl_state.md. Default "defaults". "preserve" is slow in
+   *  browsers, and cannot restore bindings of objects that the host made. */
   stateMode?: "defaults" | "preserve" | "host";
 }
 export interface GlInfo {
@@ -208,9 +210,9 @@ export interface GlView {
   offset: number;
   stride: number;
   count: number;
-  /** Of "directional-ao": a TEXTURE_2D for the sampler nook_scene_lights of the GLSL. */
+  /** For "directional-ao": a TEXTURE_2D for the sampler nook_scene_lights of the GLSL. */
   texture: WebGLTexture | null;
-  /** Of "directional-ao": the first argument of the GLSL's functions. */
+  /** For "directional-ao": the first argument of the GLSL's functions. */
   light: number;
   glsl: string;
 }
@@ -228,8 +230,8 @@ export class Gl extends Owned {
   readonly info: GlInfo;
   /** The number of WebGL objects that the library holds in this context. */
   readonly objectCount: number;
-  /** Call it on "webglcontextlost"; then destroy everything, and make it anew on "webglcontextrestored". Other calls into WebGL throw
-   *  between the loss and that. */
+  /** Call this on "webglcontextlost". Then destroy all objects, and create them again on "webglcontextrestored". Between these two
+   *  events, other calls into WebGL throw. */
   contextLost(): void;
   prepare(scene: Scene): void;
   /** Evaluates the AO of all instances. */
@@ -247,7 +249,7 @@ export class Gl extends Owned {
 export interface NnaoOptions {
   maxWidth: number;
   maxHeight: number;
-  /** Gives taps, halfResolution and blur that are not set. Default "default". */
+  /** Sets taps, halfResolution and blur, unless you set them yourself. Default "default". */
   preset?: "default" | "fast" | "best";
   taps?: 9 | 16 | 32 | 64 | 128 | 256;
   halfResolution?: boolean | number;
@@ -256,7 +258,7 @@ export interface NnaoOptions {
   blurSharpness?: number;
   /** The texture is then RGBA8: the bent normal in view space as (n + 1) / 2, and AO in alpha. */
   bentNormals?: boolean | number;
-  /** A mean over at most so many frames; 0: none. */
+  /** Averages AO over at most this number of frames. 0: no averaging. */
   maxHistoryFrames?: number;
   /** A .nook file of `nook train nnao`; default: the library's own. */
   network?: Bytes;
@@ -281,7 +283,7 @@ export interface NnaoFrame {
   /** From world space to view space, column-major; the identity by default. */
   view?: Numbers;
   clipSpace?: "negative-one-to-one" | "zero-to-one";
-  /** Metres, or the share that radiusKind says. */
+  /** In metres, or as a share, depending on radiusKind. */
   radius: number;
   radiusKind?: "metres" | "screen" | "scene";
   sceneSize?: number;
@@ -299,12 +301,12 @@ export interface NnaoFrame {
   motionVectors?: WebGLTexture | null;
   motionVectorScale?: Numbers;
   reset?: boolean | number;
-  /** Where the result goes: nothing for the pass's own texture, null for the canvas. */
+  /** The target of the result. Omit it for the pass's own texture, or pass null for the canvas. */
   target?: WebGLTexture | WebGLFramebuffer | null;
   blend?: "write" | "multiply";
   /** A debug view. */
   show?: "ao" | "raw" | "blurred" | "normals";
-  /** Set it after a texture of yours has been given another size or format. */
+  /** Set this after you have changed the size or format of one of your textures. */
   texturesChanged?: boolean | number;
 }
 export interface NnaoInfo {
@@ -319,7 +321,7 @@ export interface NnaoInfo {
 export class Nnao extends Owned {
   private constructor();
   readonly info: NnaoInfo;
-  /** The result in its red channel, where the target is the pass's own texture. */
+  /** If the target is the pass's own texture: this texture, with the result in its red channel. */
   readonly texture: WebGLTexture;
   render(frame: NnaoFrame): void;
 }
@@ -347,7 +349,7 @@ export interface ProbeInfo {
 }
 export interface ProbeFitOptions {
   method?: "least-squares" | "least-squares-non-negative" | "running-average" | "running-average-non-negative";
-  /** "paper" is the published method; leave method and matchSh out then. */
+  /** "paper" is the published method. With it, omit `method` and `matchSh`. */
   form?: "default" | "paper";
   /** The lobes agree with the light in spherical harmonics of bands 0 to 2; default true. */
   matchSh?: boolean | number;
@@ -387,22 +389,22 @@ export class Probe extends Owned {
   private constructor();
   readonly info: ProbeInfo;
   lobes(position?: Numbers): Lobe[];
-  /** The same for glossy reflection, with amplitudes that are never negative. Throws for a probe that has none. */
+  /** Like lobes(), but for glossy reflection: amplitudes are never negative. Throws if the probe has no such lobes. */
   glossLobes(position?: Numbers): Lobe[];
   /** Three floats for each function of a probe of the grid. */
   coefficients(index?: number): Float32Array;
   /** The position is three floats for all directions, or three for each. */
   radiance(directions: Numbers, position?: Numbers): Float32Array;
-  /** As radiance. Only probes on the surface's side of a wall count. */
+  /** Like radiance(). Uses only probes on the surface's side of a wall. */
   irradiance(normals: Numbers, position?: Numbers): Float32Array;
 }
 /** A probe, a grid or a material as textures, and the GLSL that reads them. */
 export class Upload extends Owned {
   private constructor();
-  /** Replaces the probe of an upload of a probe. */
+  /** Uploads another probe in place of the present one. Only for uploads of probes. */
   update(probe: Probe): void;
   readonly info: {
-    /** Bind each to a unit without a sampler object, and set the uniform of its name; or call bind. */
+    /** Bind each texture to a unit without a sampler object, and set its uniform to the unit. Or call bind(). */
     textures: { target: number; texture: WebGLTexture; uniform: string }[];
     bytes: number;
     glsl: string;

@@ -12,7 +12,8 @@ export { Nnao } from "./nnao.js";
 export { Probe, ProbeFit } from "./probe.js";
 export { Material } from "./material.js";
 
-// The bytes of a file: node's fetch takes no file: addresses. Bundlers for browsers must not follow the name of node's module.
+// Returns the bytes of a file, because Node's fetch does not support file: URLs. The module's name is in a variable, so that bundlers
+// for browsers do not try to include it.
 async function readFile(url) {
   const name = "node:fs/promises";
   const files = globalThis.process?.getBuiltinModule?.(name) ?? await import(/* webpackIgnore: true */ /* @vite-ignore */ name);
@@ -35,7 +36,7 @@ async function compile(wasm, imports) {
   }
   const response = isResponse ? source : await fetch(source);
   if (!response.ok) throw new Error(`the server answered with status ${response.status}`);
-  // Servers that do not know the type application/wasm are common.
+  // Many servers do not send the type application/wasm.
   if ((response.headers.get("Content-Type") ?? "").startsWith("application/wasm"))
     return WebAssembly.instantiateStreaming(response, imports);
   return WebAssembly.instantiate(await response.arrayBuffer(), imports);
@@ -53,9 +54,9 @@ async function instantiate(wasm, imports) {
   }
 }
 
-// Loads the module of WebAssembly and makes a context in it. wasm: where nook.wasm is, if it does not lie beside this file, or
-// its bytes; log(severity, text) takes the lines of the library's log;
-// isa chooses the instruction set of all objects, unitsPerMetre the unit of lengths.
+// Loads the WebAssembly module and creates a context in it. `wasm` is the location of nook.wasm (default: beside this file), or its
+// bytes. log(severity, text) is called with each line of the library's log. `isa` sets the instruction set of all objects, and
+// `unitsPerMetre` the unit of lengths.
 export async function load({ wasm, log, isa, unitsPerMetre } = {}) {
   const module = await new Promise((resolve, reject) => {
     makeModule({

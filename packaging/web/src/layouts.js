@@ -1,11 +1,11 @@
-// The layouts of the library's structs and its constants, as the module's own tables tell them: objects with names in
-// camelCase become structs in memory, and structs become objects. Constants are words: NOOK_POSE_SKINNING is "skinning".
+// The layouts of the library's structs, and its constants, read from tables in the module. Converts objects with camelCase names to
+// structs in memory, and structs to objects. Constants are words: NOOK_POSE_SKINNING is "skinning".
 import { checkNumber, checkNumbers, described, refuse } from "./arguments.js";
 
 const camel = (name) => name.replace(/_([a-z0-9])/g, (_, letter) => letter.toUpperCase());
 const word = (name) => name.toLowerCase().replaceAll("_", "-");
 
-// The beginning, up to a sign _, that all names have.
+// Returns the longest common prefix of all names that ends with an underscore.
 function sharedPrefix(names) {
   let prefix = names[0];
   for (const name of names) while (!name.startsWith(prefix)) prefix = prefix.slice(0, -1);
@@ -86,7 +86,7 @@ export class Layouts {
     return checked;
   }
 
-  // Writes what `check` gave.
+  // Writes the result of `check` to memory.
   store(address, checked) {
     const { module } = this;
     for (const [field, given] of checked) {

@@ -1,11 +1,11 @@
-// The module of WebAssembly with its memory: calls with checked results, and room for their arguments.
+// The WebAssembly module and its memory. Makes calls, checks their results, and allocates memory for their arguments.
 import { checkBytes, checkOut, described, refuse } from "./arguments.js";
 import { NookError } from "./error.js";
 import { Layouts } from "./layouts.js";
 
 const alignment = 16, firstCapacity = 1 << 16, maxBytes = 2 ** 32 - 1 - alignment;
 
-// Room for the arguments of one call after another. Its addresses are valid until the end of the outermost `call`.
+// Memory for the arguments of calls. It is reused by each call. Its addresses are valid until the end of the outermost `call`.
 class Room {
   constructor(module) {
     this.module = module;
@@ -17,7 +17,7 @@ class Room {
     this.call = "nook-web";  // the outermost call, for messages
   }
 
-  // Without memory there is no block; each argument then asks for its own.
+  // If this allocation fails, there is no block, and each argument is allocated separately.
   reserve(capacity) {
     this.block = this.module._malloc(capacity);
     this.capacity = this.block ? capacity : 0;
@@ -33,7 +33,7 @@ class Room {
       this.used += size;
       return this.block + this.used - size;
     }
-    // The module has addresses of 32 bits, which _malloc would take modulo.
+    // The module has 32-bit addresses. _malloc would truncate a larger size.
     const address = size <= maxBytes ? this.module._malloc(size) : 0;
     if (!address)
       throw new NookError(`${this.call}: no memory for ${bytes} bytes of arguments or results (the module has ` +
@@ -64,7 +64,7 @@ export class Library {
     this.lastMessage = "";
   }
 
-  // Runs body, whose rooms for arguments end with it. name: the function that it calls.
+  // Runs body, and then frees the memory of its arguments. `name` is the function that body calls.
   call(name, body) {
     if (this.room.depth++ === 0) this.room.call = name;
     try {
@@ -84,13 +84,13 @@ export class Library {
     throw new NookError(module.UTF8ToString(module._nook_last_message()), module.UTF8ToString(module._nook_result_name(result)));
   }
 
-  // The outermost call, for messages.
+  // The name of the outermost call, for messages.
   get name() {
     return this.room.call;
   }
 
-  // Checks `values`, and gives a function that makes a descriptor of them: the library's defaults, then `values`. A call prepares
-  // all that it takes before it makes the first of it.
+  // Checks `values`, and returns a function that makes a descriptor: it has the library's defaults, overwritten by `values`. A call
+  // must prepare all its arguments before it makes the first one.
   prepared(name, values = {}) {
     const struct = this.layouts.struct(name);
     const checked = this.layouts.check(struct, values, this.name);
@@ -207,7 +207,7 @@ export class Owned {
     this.address = handle;
     this.#destroy = destroy;
   }
-  // Throws where the object is destroyed.
+  // Throws if the object has been destroyed.
   get handle() {
     if (!this.address) throw new NookError(`nook: the ${this.constructor.name} is destroyed`, "NOOK_ERROR_INVALID_ARGUMENT");
     return this.address;

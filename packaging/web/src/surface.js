@@ -1,6 +1,5 @@
-// A WebGL 2 context of the host, as the module sees it. The module knows objects of WebGL by numbers, in tables of its own; each
-// context has tables of its own here, so that a lost context leaves nothing behind, and objects of the host are in them only
-// during a call.
+// The module's view of a WebGL 2 context of the host. The module identifies WebGL objects by their indices in tables. Each context
+// has its own tables here, so nothing remains of a lost context. The host's objects are in the tables only during a call.
 import { NookError } from "./error.js";
 
 const tables = ["buffers", "programs", "framebuffers", "renderbuffers", "textures", "shaders", "vaos", "samplers",
@@ -31,7 +30,7 @@ export class Surface {
     const canvas = context.canvas, before = canvas?.GLctxObject;
     this.#handle = GL.registerContext(context, { majorVersion: 2, minorVersion: 0, enableExtensionsByDefault: false });
     if (canvas) canvas.GLctxObject = before;
-    // A context that came back has no object of before, and isContextLost() no longer tells.
+    // Remembers the loss, because a restored context has lost all its objects, but its isContextLost() returns false again.
     canvas?.addEventListener?.("webglcontextlost", () => (this.#isLost = true), { once: true });
   }
 
@@ -40,7 +39,8 @@ export class Surface {
     this.#isLost ||= this.#context.isContextLost?.() === true;
     return this.#isLost;
   }
-  // Throws where the context is lost: WebGL then ignores calls, and reads give what was in memory. name: the function that is called.
+  // Throws if the context is lost. WebGL would ignore the calls, and reads would leave the old memory contents. `name` is the
+  // function that is called.
   alive(name) {
     if (!this.isLost) return;
     throw new NookError(`${name}: the WebGL context was lost; draw nothing until "webglcontextrestored", then destroy the Gl and ` +
@@ -60,7 +60,7 @@ export class Surface {
     return this.#context;
   }
 
-  // Objects that use the surface: each adds itself once and removes itself once.
+  // Counts the objects that use the surface. Each object adds itself once and removes itself once.
   addUser() {
     ++this.#users;
   }
@@ -94,7 +94,7 @@ export class Surface {
     }
   }
 
-  // The object that the library calls `name`.
+  // Returns the WebGL object with the index `name`.
   object(table, name) {
     return this.#own[table][name] ?? null;
   }
@@ -103,8 +103,8 @@ export class Surface {
     return Object.values(this.#own).reduce((sum, table) => sum + table.filter(Boolean).length, 0);
   }
 
-  // Gives the host's objects numbers, the same at each call, runs body with the numbers, and takes the objects back. Objects
-  // are [table, object or null] pairs.
+  // Puts the host's objects into the tables, calls body with their indices, and removes them again. An object gets the same index
+  // at each call. `objects` are [table, object or null] pairs.
   lend(objects, body) {
     const lent = [];
     const names = objects.map(([table, object]) => {
