@@ -98,23 +98,17 @@ def light_table(rows_by_character):
 
 
 def tables(rows_by_character):
-    lines, spread = [], {}
+    lines = []
     for name, rows in rows_by_character.items():
         by_surface = {}
         for row in rows:
             by_surface.setdefault(surface_of(row), {})[row["method"]] = row
         for surface, methods in by_surface.items():
             own = methods["nook"]
-            others = [f"{methods[m]['over_none']:.3f}" for m in ("capsules", "ellipsoids", "blobs", "proxy spheres")]
+            others = [f"{methods[m]['over_none']:.3f}" for m in ("capsules", "ellipsoids", "blobs")]
             lines.append([name, surface, f"{own['over_none']:.4f} [{own['over_none_low']:.4f}, {own['over_none_high']:.4f}]",
                           f"{own['over_capsules']:.2f} [{own['over_capsules_low']:.2f}, {own['over_capsules_high']:.2f}]", *others])
-            spread.setdefault(surface, []).append((own["over_none"], own["over_capsules"]))
-    summary = []
-    for surface, values in spread.items():
-        none, capsules = zip(*values)
-        summary.append([surface, f"{min(none):.4f} to {max(none):.4f}", f"{min(capsules):.2f} to {max(capsules):.2f}"])
-    return {"errors": table(["character", "surface", "over none", "over capsules", "capsules", "ellipsoids", "blobs", "proxy spheres"], lines),
-            "summary": table(["surface", "over none", "over capsules"], summary)}
+    return {"errors": table(["character", "surface", "over none", "over capsules", "capsules", "ellipsoids", "blobs"], lines)}
 
 
 def main():
