@@ -37,8 +37,8 @@ inline constexpr double near_bodies_of_group = 1.01;
 inline constexpr double parts_of_group_body = 5.56;
 inline constexpr double casters_of_group_part = 0.195;
 inline constexpr double far_bodies_of_group = 26.8;
-// Shares of threads that take three branches: for parts that are merged into one capsule, for far bodies in
-// range, and for surfaces without a normal.
+// For each of three branches, the share of threads that take it: parts that are merged into one capsule, far
+// bodies in range, and surfaces without a normal.
 inline constexpr double merged_parts = 0.96;
 inline constexpr double far_bodies_in_reach = 0.91;
 inline constexpr double no_normal = 0;

@@ -160,7 +160,8 @@ class CharacterModel(Handle):
 
     def map_bones(self, names_of_transforms: Union[str, Sequence[str]], *, loose: bool = False,
                   drop_shared_prefix: bool = False) -> npt.NDArray[np.int32]:
-        """Returns the index of the transform of each bone by name, or -1, for transform_of_bone of a pose. loose ignores case and
+        """Finds the transform of each bone by its name. Returns one index for each bone, or -1 if no name fits. Assign the result to
+        transform_of_bone of a pose. loose ignores case and
         the characters space . _ - : |. drop_shared_prefix removes the prefix that all names share, such as "mixamorig:"."""
         desc = descriptor(c.nook_bone_map_desc)
         found = names(names_of_transforms, "names_of_transforms")

@@ -13,8 +13,8 @@ struct Depth {
   float lowest = INFINITY;  // signed distance of the lowest point from the plane, in metres
 };
 
-// The bones of such a pose are of an earlier one, so only the bound is known. A standing body reaches about
-// 0.85 of the radius of its bound downwards.
+// Only the bound of such a pose is known, because the bones on the CPU still have an earlier pose. A standing
+// body reaches about 0.85 of the radius of its bound downwards.
 Depth depth_of_bound(const Sphere& bound, const Plane& plane) {
   const float middle = dot(plane.normal, bound.centre) - plane.offset, half = 0.85f * bound.radius;
   return {std::clamp(0.5f - 0.5f * middle / std::max(half, 1e-9f), 0.0f, 1.0f), middle < 0 ? 1.0f : 0.0f,
