@@ -82,7 +82,7 @@ TEST_CASE("accessors have the types that the specification allows") {
              "UNSIGNED_BYTE, UNSIGNED_SHORT, UNSIGNED_INT)");
     contains(failure_when([&] { import_static_scene(file.glb()); }), "(accessor 7) contains SCALAR of FLOAT");
     primitive["indices"] = file.add(tube.index, "SCALAR", 5122);
-    contains(failure_of(file), "is SCALAR of SHORT");
+    contains(failure_of(file), "contains SCALAR of SHORT");
   }
   SECTION("joints") {
     primitive["attributes"]["JOINTS_0"] = file.add_floats(floats(tube.joint), "VEC4");
@@ -93,7 +93,7 @@ TEST_CASE("accessors have the types that the specification allows") {
         failure_of(file),
         "contains VEC4 of UNSIGNED_INT (need VEC4; allowed component types: UNSIGNED_BYTE, UNSIGNED_SHORT)");
     primitive["attributes"]["JOINTS_0"] = file.add(tube.joint, "VEC4", 5121, true);
-    contains(failure_of(file), "is VEC4 of normalized UNSIGNED_BYTE");
+    contains(failure_of(file), "contains VEC4 of normalized UNSIGNED_BYTE");
   }
   SECTION("weights") {
     primitive["attributes"]["WEIGHTS_0"] =
