@@ -1,6 +1,8 @@
 #include "sdk/src/api/pose_log.h"
 
 #include <algorithm>
+#include <atomic>
+#include <cstdint>
 #include <cstdio>
 
 #include "sdk/src/character/body_check.h"
@@ -138,6 +140,16 @@ void log_body(const Context& context, const Scene& scene, Instance& instance) {
   log_size(context, instance);
 }
 
+// Sets a bit, and returns true if it was 0 before. Several threads may read the AO of one instance at a time.
+// GCC and Clang have no std::atomic_ref with the standard libraries of Emscripten and LLVM 16.
+bool set_once(std::uint32_t& bits, std::uint32_t bit) noexcept {
+#if defined(__GNUC__)
+  return (__atomic_fetch_or(&bits, bit, __ATOMIC_RELAXED) & bit) == 0;
+#else
+  return (std::atomic_ref(bits).fetch_or(bit, std::memory_order_relaxed) & bit) == 0;
+#endif
+}
+
 }  // namespace
 
 void log_bodies(const Context& context, Scene& scene) {
@@ -151,9 +163,7 @@ void log_bodies(const Context& context, Scene& scene) {
 
 void log_missing_update(const Context& context, Instance& instance) {
   if (instance.result.evaluated_frame > 0 || instance.input.clip.is_used()) return;
-  const std::atomic_ref reported(instance.input.reported);
-  if (reported.load(std::memory_order_relaxed) & topic_no_update) return;
-  if (reported.fetch_or(topic_no_update, std::memory_order_relaxed) & topic_no_update) return;
+  if (!set_once(instance.input.reported, topic_no_update)) return;
   context.log(NOOK_LOG_WARNING,
               "instance %u: nook_scene_read gives AO 1, because nook_scene_update was not called since the "
               "instance was added or got another model; call it after you set poses. What "
