@@ -139,9 +139,8 @@ float shown_ao(const RayScene& scene, const PosedSurface& surface, std::span<con
 }
 
 // Returns points on the edges of each vertex at a quarter, half and three quarters of their length, and the
-// centroids of its triangles. The weight of a point is the barycentric weight of the vertex times a length.
-// For a point on an edge, this is the length of edge that the point represents. For a centroid, it is the
-// square root of the area that the centroid represents.
+// centroids of its triangles. The vertex is the first one of each point's triangle. The weight of a point is
+// the length of its edge, or the square root of its triangle's area for a centroid.
 StandIns all_stand_ins(const SkinnedMesh& mesh) {
   std::vector<std::vector<StandIns::Point>> points(mesh.vertex_count());
   for (const auto& t : mesh.triangle) {

@@ -115,7 +115,8 @@ struct Builder {
   const Manifest& manifest;
   std::vector<Job> jobs;
 
-  // `inputs` are the positional arguments. The placeholders are replaced by the path of the file `about`.
+  // `inputs` are the positional arguments. `about` is the path from which the words in braces in patterns of
+  // file names are made.
   void add(const std::string& place, const std::string& kind, const Words& inputs, const std::string& about,
            const std::string& output, const Json& settings) {
     Job job;
