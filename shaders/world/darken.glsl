@@ -61,6 +61,9 @@ vec3 nook_world_tangent(ivec2 pixel, ivec2 axis, vec3 position) {
 #endif
   vec3 back = position - nook_position(nook_screen_rays, vec2(pixel - step), depths.x);
   vec3 forth = nook_position(nook_screen_rays, vec2(pixel + step), depths.y) - position;
+  // Beyond the border of the screen, the surface is assumed to continue.
+  bool inside = nook_inside(pixel - step, nook_screen_size);
+  if (inside != nook_inside(pixel + step, nook_screen_size)) return inside ? back : forth;
   float b = back.z * back.z + 1.0e-12, f = forth.z * forth.z + 1.0e-12;
   return b < f ? back + forth * (b / f) : back * (f / b) + forth;
 }
