@@ -19,13 +19,14 @@ using Json = nlohmann::ordered_json;
 
 namespace {
 
-// The panels of a picture, after the scene and the reference.
+// The panels of a picture, after the scene and the reference. blind_pairs.py reads the panels of `_pairs`.
 struct Shown {
   const char* suffix;
   std::vector<std::pair<std::string, int>> methods;
 };
 const Shown sheets[] = {
     {"", {{"nnao", 9}, {"xegtao", 18}, {"gtao_bitmask", 16}, {"hbao", 64}}},
+    {"_pairs", {{"nnao", 9}, {"xegtao", 18}, {"hbao", 16}, {"gtao", 16}}},
     {"_presets", {{half_name, 9}, {"nnao", 9}, {"nnao", 32}, {"gtao", 16}}},
     {"_shipped", {{"n8ao_shipped", 16}, {"s4ao_shipped", 12}, {"vtk_shipped", 32}, {"filament_shipped", 7}}}};
 
