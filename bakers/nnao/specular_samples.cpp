@@ -96,18 +96,19 @@ class UnfilteredPass {
   float edge_tolerance_;
 };
 
-using PixelLine = std::array<ScreenPixel, 5>;
+constexpr int reach_px = nook::nnao::filter_reach_px;
+using PixelLine = std::array<ScreenPixel, nook::nnao::filter_size_px>;
 
-// Filters the middle one of five pixels along an axis. Does not change its edges.
+// Filters the middle pixel of a line along an axis. Does not change its edges.
 ScreenPixel filtered_line(const PixelLine& pixels, nook::nnao::FilterAxis axis, std::uint32_t taps) {
   nook::nnao::FilterLine line;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     line.ao[i] = pixels[i].ao;
     line.edges[i] = pixels[i].edges;
   }
-  const std::array<float, 5> weights =
+  const nook::nnao::FilterWeights weights =
       nook::nnao::filter_weights(line, axis, nook::nnao::filter_range_sharpness(taps, axis));
-  ScreenPixel sum{0, {}, pixels[2].edges};
+  ScreenPixel sum{0, {}, pixels[reach_px].edges};
   float whole = 0;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     sum.ao += weights[i] * pixels[i].ao;
@@ -122,11 +123,11 @@ ScreenPixel filtered_line(const PixelLine& pixels, nook::nnao::FilterAxis axis, 
 // Returns the AO and the bent normal of a pixel after the pass's filter.
 LitPixel filtered_pixel(const UnfilteredPass& pass, const TracedView& traced, const Surface& surface) {
   PixelLine column;
-  for (int up = -2; up <= 2; ++up) {
+  for (int up = -reach_px; up <= reach_px; ++up) {
     PixelLine row;
-    for (int aside = -2; aside <= 2; ++aside)
-      row[std::size_t(aside + 2)] = pass.at(int(surface.x) + aside, int(surface.y) + up);
-    column[std::size_t(up + 2)] = filtered_line(row, nook::nnao::FilterAxis::x, pass.taps());
+    for (int aside = -reach_px; aside <= reach_px; ++aside)
+      row[std::size_t(aside + reach_px)] = pass.at(int(surface.x) + aside, int(surface.y) + up);
+    column[std::size_t(up + reach_px)] = filtered_line(row, nook::nnao::FilterAxis::x, pass.taps());
   }
   const ScreenPixel filtered = filtered_line(column, nook::nnao::FilterAxis::y, pass.taps());
   return {normalised(filtered.bent), view_direction(traced.camera, surface.normal),

@@ -1,7 +1,7 @@
-// A bilateral filter along one axis of the screen. Applied along x and then along y, it averages 5 x 5 texels
-// with the weights 1, 2, 3, 2, 1 along each axis. The noise of the taps repeats every three texels. With
-// these weights, all values of the noise have the same total weight. A texel is only used if there is no edge
-// between it and the centre, and if its AO is similar.
+// A bilateral filter along one axis of the screen. Applied along x and then along y, it averages 7 x 7 texels
+// with the weights 1, 3, 6, 7, 6, 3, 1 along each axis. The ninths of the taps' noise repeat every three texels.
+// With these weights, all ninths have the same total weight. A texel is only used if there is no edge between it
+// and the centre, and with more than nine taps if its AO is similar.
 uniform sampler2D nook_ao;  // AO, edges, and the bent normal in passes that have it
 
 #ifdef NOOK_FILTER_ALONG_Y
@@ -11,12 +11,14 @@ const uint nook_back_bit = 2u, nook_ahead_bit = 0u;
 const ivec2 nook_filter_step = ivec2(1, 0);
 const uint nook_back_bit = 6u, nook_ahead_bit = 4u;
 #endif
-// The filter along x reads texels that are not filtered yet. With nine taps, their AO is too noisy to be
-// compared. With more taps, it is compared with half the sharpness.
+// With nine taps, AO is too noisy to be compared: rows that differ by their noise alone would stay apart. The
+// filter along x reads texels that are not filtered yet, so it compares them with half the sharpness.
+#if NOOK_DIRECTIONS > 3
 #ifdef NOOK_FILTER_ALONG_Y
 #define NOOK_FILTER_SHARPNESS nook_range_sharpness
-#elif NOOK_DIRECTIONS > 3
+#else
 #define NOOK_FILTER_SHARPNESS (0.5 * nook_range_sharpness)
+#endif
 #endif
 
 // Each value of nook_ao contains four edges. Returns one of them, as a number from 0 to 3.
@@ -40,21 +42,25 @@ void nook_add_texel(inout NookFilterSum sum, vec4 centre, vec4 texel, float weig
 #endif
 }
 
-// Adds the two texels on one side of the centre. `edge` is the centre's edge towards them, 0 to 3.
-void nook_add_side(inout NookFilterSum sum, vec4 centre, float edge, ivec2 near, ivec2 far, uint bit) {
-  vec4 texel = texelFetch(nook_ao, near, 0);
-  nook_add_texel(sum, centre, texel, edge * (2.0 / 9.0));
-  nook_add_texel(sum, centre, texelFetch(nook_ao, far, 0), edge * nook_edge(texel, bit) * (1.0 / 27.0));
+// Adds the three texels on one side of the centre, in the direction `one`. `last` is the last texel of the
+// surface, and `bit` is the place of the edge in this direction.
+void nook_add_side(inout NookFilterSum sum, vec4 centre, ivec2 at, ivec2 one, ivec2 last, uint bit) {
+  float edge = nook_edge(centre, bit);
+  vec4 texel = texelFetch(nook_ao, clamp(at + one, ivec2(0), last), 0);
+  nook_add_texel(sum, centre, texel, edge * (6.0 / 7.0 / 3.0));
+  edge *= nook_edge(texel, bit);
+  texel = texelFetch(nook_ao, clamp(at + 2 * one, ivec2(0), last), 0);
+  nook_add_texel(sum, centre, texel, edge * (3.0 / 7.0 / 9.0));
+  edge *= nook_edge(texel, bit);
+  texel = texelFetch(nook_ao, clamp(at + 3 * one, ivec2(0), last), 0);
+  nook_add_texel(sum, centre, texel, edge * (1.0 / 7.0 / 27.0));
 }
 
 // Returns a filtered texel. Its edges are not changed.
 vec4 nook_filtered(ivec2 texel, ivec2 last) {
-  ivec2 one = nook_filter_step, two = 2 * nook_filter_step;
   vec4 centre = texelFetch(nook_ao, texel, 0);
   NookFilterSum sum = NookFilterSum(nook_own_weight * centre.r, nook_own_weight, nook_own_weight * centre.ba);
-  nook_add_side(sum, centre, nook_edge(centre, nook_back_bit), max(texel - one, ivec2(0)), max(texel - two, ivec2(0)),
-                nook_back_bit);
-  nook_add_side(sum, centre, nook_edge(centre, nook_ahead_bit), min(texel + one, last), min(texel + two, last),
-                nook_ahead_bit);
+  nook_add_side(sum, centre, texel, -nook_filter_step, last, nook_back_bit);
+  nook_add_side(sum, centre, texel, nook_filter_step, last, nook_ahead_bit);
   return vec4(sum.ao / sum.weight, centre.g, sum.bent / sum.weight);
 }

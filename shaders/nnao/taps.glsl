@@ -2,12 +2,21 @@
 
 #include "shaders/nnao/layout.h"
 
-// Returns the noise for rotation and offset. In a block of 3 x 3 pixels, each of the two has 9 different
-// values.
+// Returns two values in [0, 1) that look random from texel to texel.
+vec2 nook_tap_jitter(ivec2 texel) {
+  uint hash = (uint(texel.x) | uint(texel.y) << 16) * 0x7FEB352Du;
+  hash = (hash ^ hash >> 15) * 0x846CA68Bu;
+  hash ^= hash >> 16;
+  return vec2(hash >> 16, hash & 0xFFFFu) / 65536.0;
+}
+
+// Returns the noise for rotation and offset. In a block of 3 x 3 pixels, each of the two has one value in each
+// ninth of [0, 1). The place within the ninth is random, because with equal places the shadow of one edge would
+// appear several times, at the same distances from the edge for all pixels.
 vec2 nook_tap_noise(ivec2 texel) {
   vec2 at = vec2(texel);
   vec2 cell = at - 3.0 * floor((at + 0.5) / 3.0);
-  vec2 noise = (cell.xy * 3.0 + cell.yx + 0.5) / 9.0;
+  vec2 noise = (cell.xy * 3.0 + cell.yx + nook_tap_jitter(texel)) / 9.0;
 #if NOOK_TEMPORAL
   noise = fract(noise + nook_noise_shift);
 #endif

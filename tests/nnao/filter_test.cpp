@@ -85,7 +85,11 @@ TEST_CASE("a step in depth is an edge on both sides, and the normal does not lea
 }
 
 TEST_CASE("edges are kept in two bits each") {
-  CHECK(packed_edges({0, 0, 0, 0}) == 0);
+  // A pixel without any connected neighbour is connected to all four by 2 of 3, and by less with each
+  // neighbour.
+  CHECK(packed_edges({0, 0, 0, 0}) == (2 << 6 | 2 << 4 | 2 << 2 | 2));
+  CHECK(packed_edges({1, 0, 0, 0}) == (3 << 6 | 1 << 4 | 1 << 2 | 1));
+  CHECK(packed_edges({1, 1, 0, 0}) == (3 << 6 | 3 << 4));
   CHECK(packed_edges({1, 1, 1, 1}) == 255);
   CHECK(packed_edges({1, 0, 0.34f, 0.6f}) == (3 << 6 | 0 << 4 | 1 << 2 | 2));
 }
@@ -115,26 +119,25 @@ TEST_CASE("the filter keeps a constant, averages noise of 3 x 3 pixels, and cros
   const std::vector<std::uint8_t> edges = edges_of(picture, 0.05f);
   std::vector<float> ao(width * height, 0.375f);
   for (const float value : filtered_image(ao, edges)) CHECK(std::abs(value - 0.375f) < 1e-6f);
-  // Without a range every noise value weighs the same over 5 x 5 pixels: the mean of the nine.
+  // Without a range every noise value weighs the same over 7 x 7 pixels: the mean of the nine.
   for (std::uint32_t y = 0; y < height; ++y)
     for (std::uint32_t x = 0; x < width; ++x)
       ao[y * width + x] = (x < 12 ? 0.2f : 0.7f) + 0.02f * float(x % 3 * 3 + y % 3);
   ao = filtered_image(ao, edges);
-  for (std::uint32_t x = 2; x < width - 2; ++x) {
-    const bool beside_edge = x >= 10 && x < 14;
+  for (std::uint32_t x = 3; x < width - 3; ++x) {
+    const bool beside_edge = x >= 9 && x < 15;
     CHECK(std::abs(ao[7 * width + x] - (x < 12 ? 0.28f : 0.78f)) < (beside_edge ? 0.05f : 1e-5f));
   }
 }
 
 TEST_CASE("the filter takes no pixel behind an edge, though that one is connected with its own neighbours") {
-  FilterLine line{{0.1f, 0.2f, 0.3f, 0.4f, 0.5f}, {255, 255, 255, 255, 255}};
-  line.edges[2] = packed_edges({0, 1, 1, 1});
-  line.edges[3] = packed_edges({1, 0, 1, 1});
-  const std::array<float, 5> weights = filter_weights(line, FilterAxis::x, 0);
-  CHECK(weights == std::array<float, 5>{0, 0, 1, 2.0f / 3, 0});
+  FilterLine line{{0.1f, 0.2f, 0.3f, 0.4f, 0.5f, 0.6f, 0.7f}, {255, 255, 255, 255, 255, 255, 255}};
+  line.edges[3] = packed_edges({0, 1, 1, 1});
+  line.edges[4] = packed_edges({1, 0, 1, 1});
+  constexpr float near = 6.0f / 7, far = 3.0f / 7, farthest = 1.0f / 7;
+  CHECK(filter_weights(line, FilterAxis::x, 0) == FilterWeights{0, 0, 0, 1, near, 0, 0});
   // Along y the same edges do not count.
-  CHECK(filter_weights(line, FilterAxis::y, 0) ==
-        std::array<float, 5>{1.0f / 3, 2.0f / 3, 1, 2.0f / 3, 1.0f / 3});
+  CHECK(filter_weights(line, FilterAxis::y, 0) == FilterWeights{farthest, far, near, 1, near, far, farthest});
 }
 
 TEST_CASE("the filter does not average values that differ too much") {
@@ -144,6 +147,8 @@ TEST_CASE("the filter does not average values that differ too much") {
   for (std::uint32_t x = 0; x < width; ++x) ao[8 * width + x] = 0.3f;  // a dark line, one pixel wide
   CHECK(std::abs(filtered_at(ao, edges, 12, 8, FilterAxis::y, 4) - 0.3f) < 1e-6f);
   CHECK(std::abs(filtered_at(ao, edges, 12, 7, FilterAxis::y, 4) - 0.9f) < 1e-6f);
-  // The weights 2/3 and 1/3 of four pixels that are 0.6 away, times 2 - 2.5 x 0.6.
-  CHECK(std::abs(filtered_at(ao, edges, 12, 8, FilterAxis::y, 2.5f) - (0.3f + 2 * 0.5f * 0.9f) / 2) < 1e-5f);
+  // The weights of six pixels that are 0.6 away add up to 20/7, times 2 - 2.5 x 0.6.
+  constexpr float others = 20.0f / 7 * 0.5f;
+  CHECK(std::abs(filtered_at(ao, edges, 12, 8, FilterAxis::y, 2.5f) - (0.3f + others * 0.9f) / (1 + others)) <
+        1e-5f);
 }

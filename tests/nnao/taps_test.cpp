@@ -6,19 +6,43 @@
 
 using namespace nook::nnao;
 
-TEST_CASE("a block of 3 x 3 pixels, wherever it begins, sees every noise value once") {
+TEST_CASE("a block of 3 x 3 pixels, wherever it begins, has one noise value in each ninth") {
   for (std::uint32_t corner = 0; corner < 9; ++corner) {
-    std::set<float> rotations, offsets;
+    std::set<int> rotations, offsets;
     for (std::uint32_t i = 0; i < 9; ++i) {
       const TapNoise noise = tap_noise(corner % 3 + i % 3, corner / 3 + i / 3);
-      rotations.insert(noise.rotation);
-      offsets.insert(noise.offset);
+      rotations.insert(int(9 * noise.rotation));
+      offsets.insert(int(9 * noise.offset));
     }
-    CHECK(rotations.size() == 9);
-    CHECK(offsets.size() == 9);
-    CHECK(*rotations.begin() == 0.5f / 9);
-    CHECK(*offsets.rbegin() == 8.5f / 9);
+    CHECK(rotations == std::set<int>{0, 1, 2, 3, 4, 5, 6, 7, 8});
+    CHECK(offsets == rotations);
   }
+}
+
+TEST_CASE("the place within a ninth is even, and neighbours tell nothing of each other") {
+  constexpr std::uint32_t size = 96;
+  // Returns the mean of the product of two deviations from 1/2, over the variance 1/12 of an even
+  // distribution.
+  const auto correlation = [](auto first, auto second) {
+    double sum = 0;
+    for (std::uint32_t y = 0; y < size; ++y)
+      for (std::uint32_t x = 0; x < size; ++x) sum += (first(x, y) - 0.5) * (second(x, y) - 0.5);
+    return 12 * sum / (size * size);
+  };
+  const auto rotation = [](int right, int up) {
+    return [=](std::uint32_t x, std::uint32_t y) {
+      return double(tap_jitter(x + std::uint32_t(right), y + std::uint32_t(up)).rotation);
+    };
+  };
+  const auto offset = [](std::uint32_t x, std::uint32_t y) { return double(tap_jitter(x, y).offset); };
+  // Of 9,216 independent pairs, the correlation has a deviation of 1/96. The bounds are four of these.
+  constexpr double four_deviations = 4.0 / size;
+  CHECK(std::abs(correlation(rotation(0, 0), rotation(0, 0)) - 1) < four_deviations);
+  CHECK(std::abs(correlation(offset, offset) - 1) < four_deviations);
+  CHECK(std::abs(correlation(rotation(0, 0), offset)) < four_deviations);
+  for (int up = 0; up <= 4; ++up)
+    for (int right = up == 0 ? 1 : 0; right <= 4; ++right)
+      CHECK(std::abs(correlation(rotation(0, 0), rotation(right, up))) < four_deviations);
 }
 
 TEST_CASE("steps grow, never share a pixel and stay within the radius") {

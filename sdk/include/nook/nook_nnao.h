@@ -52,7 +52,7 @@ typedef struct nook_nnao_desc {
   int32_t taps;
   /* 1: AO is computed at half width and height, and upsampled joint-bilaterally. Default -1: the preset's. */
   int32_t half_resolution;
-  /* The number of bilateral filters over 5 x 5 pixels: 0, 1 or 2. A filter averages out the noise of the
+  /* The number of bilateral filters over 7 x 7 pixels: 0, 1 or 2. A filter averages out the noise of the
    * taps. The second filter removes noise at edges, but also fine lines. Default -1: the preset's. */
   int32_t blur;
   /* > 0, default 16. Surfaces are not mixed if their depths differ by more than radius / blur_sharpness. */

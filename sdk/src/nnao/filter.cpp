@@ -61,36 +61,42 @@ Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Ne
 }
 
 std::uint8_t packed_edges(const std::array<float, 4>& connected) {
+  const float least = 0.5f - 0.2f * (connected[0] + connected[1] + connected[2] + connected[3]);
   std::uint32_t bits = 0;
-  for (const float edge : connected) bits = bits << 2 | std::uint32_t(std::floor(3 * edge + 0.5f));
+  for (const float edge : connected)
+    bits = bits << 2 | std::uint32_t(std::floor(3 * std::max(edge, least) + 0.5f));
   return std::uint8_t(bits);
 }
 
-std::array<float, 5> filter_weights(const FilterLine& line, FilterAxis axis, float range_sharpness) {
-  constexpr std::size_t middle = 2;
-  constexpr float share_one = 2.0f / 3, share_two = 1.0f / 3;
+FilterWeights filter_weights(const FilterLine& line, FilterAxis axis, float range_sharpness) {
+  constexpr float shares[filter_reach_px] = {6.0f / 7, 3.0f / 7, 1.0f / 7};
   const std::size_t back = axis == FilterAxis::x ? 0 : 2, ahead = back + 1;
-  const auto similar = [&](std::size_t at) {
-    return std::clamp(2 - range_sharpness * std::abs(line.ao[at] - line.ao[middle]), 0.0f, 1.0f);
-  };
-  const auto edge = [&](std::size_t at, std::size_t side) { return unpacked(line.edges[at])[side] / 3; };
-  const float one_back = edge(middle, back), one_ahead = edge(middle, ahead);
-  return {share_two * one_back * edge(1, back) * similar(0), share_one * one_back * similar(1), 1,
-          share_one * one_ahead * similar(3), share_two * one_ahead * edge(3, ahead) * similar(4)};
+  FilterWeights weights{};
+  weights[filter_reach_px] = 1;
+  for (const int side : {-1, 1}) {
+    float connected = 1;
+    for (int i = 1; i <= filter_reach_px; ++i) {
+      const std::size_t at = std::size_t(filter_reach_px + i * side), nearer = std::size_t(int(at) - side);
+      connected *= unpacked(line.edges[nearer])[side < 0 ? back : ahead] / 3;
+      const float difference = std::abs(line.ao[at] - line.ao[filter_reach_px]);
+      weights[at] = shares[i - 1] * connected * std::clamp(2 - range_sharpness * difference, 0.0f, 1.0f);
+    }
+  }
+  return weights;
 }
 
 float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,
                std::uint32_t height, std::uint32_t x, std::uint32_t y, FilterAxis axis,
                float range_sharpness) {
   FilterLine line;
-  for (int i = 0; i < 5; ++i) {
-    const int along = i - 2;
+  for (int i = 0; i < filter_size_px; ++i) {
+    const int along = i - filter_reach_px;
     const std::size_t texel = axis == FilterAxis::x ? near_texel(width, height, x, y, along, 0)
                                                     : near_texel(width, height, x, y, 0, along);
     line.ao[std::size_t(i)] = ao[texel];
     line.edges[std::size_t(i)] = edges[texel];
   }
-  const std::array<float, 5> weights = filter_weights(line, axis, range_sharpness);
+  const FilterWeights weights = filter_weights(line, axis, range_sharpness);
   float sum = 0, whole = 0;
   for (std::size_t i = 0; i < weights.size(); ++i) {
     sum += weights[i] * line.ao[i];

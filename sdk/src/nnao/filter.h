@@ -30,7 +30,9 @@ Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, flo
 // because depth changes more steeply across a silhouette than on the pixel's own surface.
 Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours);
 
-// Packs the four values of `connected` into two bits each. Two bits can represent 0, 1/3, 2/3 and 1.
+// Packs the four values of `connected` into two bits each. Two bits can represent 0, 1/3, 2/3 and 1. A pixel
+// that has hardly any connected neighbour is connected to all four a little. Otherwise nothing would remove
+// its noise, and thin gaps would be rows of dots.
 std::uint8_t packed_edges(const std::array<float, 4>& connected);
 
 // The pass filters along x first and then along y.
@@ -38,31 +40,35 @@ enum class FilterAxis { x, y };
 
 // Returns the range sharpness of the filter along y. AO values that differ by less than 1 / sharpness are
 // averaged with full weight. Values that differ by more than 2 / sharpness are not averaged. With fewer taps
-// AO is noisier, so the sharpness is lower.
+// AO is noisier, so the sharpness is lower. With nine taps AO is too noisy to be compared: rows that differ
+// by their noise alone would stay apart.
 constexpr float filter_range_sharpness(std::uint32_t taps) {
-  return taps < 16 ? 4.0f : taps < 32 ? 5.0f : 8.0f;
+  return taps < 16 ? 0.0f : taps < 32 ? 5.0f : 8.0f;
 }
 
 // Returns the range sharpness of the filter along either axis. The filter along x reads unfiltered AO, which
-// is noisier. With nine taps it does not compare AO values at all; with more taps, the filter along x has
-// half the sharpness of the filter along y.
+// is noisier, so it has half the sharpness of the filter along y.
 constexpr float filter_range_sharpness(std::uint32_t taps, FilterAxis axis) {
-  return axis == FilterAxis::y ? filter_range_sharpness(taps)
-         : taps < 16           ? 0
-                               : 0.5f * filter_range_sharpness(taps);
+  return axis == FilterAxis::y ? filter_range_sharpness(taps) : 0.5f * filter_range_sharpness(taps);
 }
 
-// The input of the filter for one pixel: AO and packed_edges of five pixels in a row or column. The middle
+// The number of pixels on each side of the filtered one, and the number of pixels in a row or column of the
+// filter.
+inline constexpr int filter_reach_px = 3, filter_size_px = 2 * filter_reach_px + 1;
+
+// The input of the filter for one pixel: AO and packed_edges of the pixels in a row or column. The middle
 // pixel is the one that is filtered. `edges` is 0 where there is no surface.
 struct FilterLine {
-  std::array<float, 5> ao{};
-  std::array<std::uint8_t, 5> edges{};
+  std::array<float, filter_size_px> ao{};
+  std::array<std::uint8_t, filter_size_px> edges{};
 };
 
-// Returns the weights of the five pixels in the filtered value. The middle pixel has the weight 1. If
-// range_sharpness is 0, the weights are 1, 2, 3, 2, 1 divided by 3, each times the product of the connections
-// between the pixel and the middle one.
-std::array<float, 5> filter_weights(const FilterLine& line, FilterAxis axis, float range_sharpness);
+using FilterWeights = std::array<float, filter_size_px>;
+
+// Returns the weights of the pixels in the filtered value. The middle pixel has the weight 1. If
+// range_sharpness is 0, the weights are 1, 3, 6, 7, 6, 3, 1 divided by 7, each times the product of the
+// connections between the pixel and the middle one.
+FilterWeights filter_weights(const FilterLine& line, FilterAxis axis, float range_sharpness);
 
 // Filters AO along an axis at one pixel. Pixels beyond the border have the weight 0.
 float filtered(std::span<const float> ao, std::span<const std::uint8_t> edges, std::uint32_t width,

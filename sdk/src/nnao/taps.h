@@ -11,9 +11,9 @@
 
 namespace nook::nnao {
 
-// Two values in (0, 1) that vary the taps from pixel to pixel. In a block of 3 x 3 pixels, each value has 9
-// evenly spaced steps. The 9 pairs of values form the Hammersley set in base 3. The filter gives all nine
-// values the same total weight.
+// Two values in [0, 1) that vary the taps from pixel to pixel. In a block of 3 x 3 pixels, each value lies
+// once in each ninth of [0, 1). The 9 pairs of ninths form the Hammersley set in base 3. The filter gives all
+// nine the same total weight.
 struct TapNoise {
   float rotation = 0.5f, offset = 0.5f;
 };
@@ -25,15 +25,26 @@ inline TapNoise frame_noise_step(std::uint32_t frame) {
   return {float(std::fmod(rotation * frame, 1.0)), float(std::fmod(offset * frame, 1.0))};
 }
 
-constexpr TapNoise tap_noise_of_rank(std::uint32_t rank) {
-  constexpr std::uint32_t size = NOOK_NOISE_SIZE, count = NOOK_NOISE_COUNT;
-  const std::uint32_t reversed = rank % size * size + rank / size;
-  return {(float(rank) + 0.5f) / count, (float(reversed) + 0.5f) / count};
+// Returns two values in [0, 1) that look random from pixel to pixel.
+constexpr TapNoise tap_jitter(std::uint32_t x, std::uint32_t y) {
+  std::uint32_t hash = (x | y << 16) * 0x7FEB352Du;
+  hash = (hash ^ hash >> 15) * 0x846CA68Bu;
+  hash ^= hash >> 16;
+  return {float(hash >> 16) / 65536, float(hash & 0xFFFFu) / 65536};
 }
 
+// `within` is the place within the ninths.
+constexpr TapNoise tap_noise_of_rank(std::uint32_t rank, TapNoise within = {}) {
+  constexpr std::uint32_t size = NOOK_NOISE_SIZE, count = NOOK_NOISE_COUNT;
+  const std::uint32_t reversed = rank % size * size + rank / size;
+  return {(float(rank) + within.rotation) / count, (float(reversed) + within.offset) / count};
+}
+
+// The place within the ninths is random. With equal places, the shadow of one edge would appear several
+// times, at the same distances from the edge for all pixels.
 constexpr TapNoise tap_noise(std::uint32_t x, std::uint32_t y) {
   constexpr std::uint32_t size = NOOK_NOISE_SIZE;
-  return tap_noise_of_rank(x % size * size + y % size);
+  return tap_noise_of_rank(x % size * size + y % size, tap_jitter(x, y));
 }
 
 // An offset from the centre of the pixel.
