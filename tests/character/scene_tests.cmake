@@ -3,6 +3,7 @@ add_executable(nook_scene_tests
   ${PROJECT_SOURCE_DIR}/bakers/character/levels.cpp
   ${PROJECT_SOURCE_DIR}/bakers/raytrace/instruction_set.cpp
   bent_normal_test.cpp
+  body_check_test.cpp
   clips_test.cpp
   model_file_test.cpp
   pose_source_test.cpp

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sdk/src/core/affine.h"
+#include "sdk/src/character/scene_clips.h"
 
 namespace nook {
 namespace {
@@ -13,25 +13,37 @@ struct Depth {
   float lowest = INFINITY;  // signed distance of the lowest point from the plane, in metres
 };
 
-// Only the bound of such a pose is known, because the bones on the CPU still have an earlier pose. A standing
-// body reaches about 0.85 of the radius of its bound downwards.
-Depth depth_of_bound(const Sphere& bound, const Plane& plane) {
-  const float middle = dot(plane.normal, bound.centre) - plane.offset, half = 0.85f * bound.radius;
-  return {std::clamp(0.5f - 0.5f * middle / std::max(half, 1e-9f), 0.0f, 1.0f), middle < 0 ? 1.0f : 0.0f,
-          middle - half};
+// Returns true if the bones of the current pose are on the CPU, or if a clip on the CPU tells them.
+bool has_bones(const Instance& instance) {
+  return !instance.input.is_posed_on_gpu && (instance.input.clip.is_late || !instance.bones().empty());
 }
 
-Depth depth_below(const Instance& instance, const Plane& plane) {
-  const InstanceInput& input = instance.input;
-  if (input.is_posed_on_gpu || input.clip.is_late || !instance.parts || instance.parts->bones.empty())
-    return depth_of_bound(input.bound, plane);
+float height_of_bound(const Sphere& bound, const Plane& plane) {
+  return dot(plane.normal, bound.centre) - plane.offset;
+}
+
+// Use it for poses whose bones are only on the GPU. A body that lies on the ground and a body that stands in
+// it up to the hips have the same bound. So nothing is below unless the centre is deep. A standing body
+// reaches about 0.85 of the radius of its rest pose downwards. The host may pass a bound that is larger.
+Depth depth_of_bound(const Instance& instance, const Plane& plane) {
+  const Sphere& bound = instance.input.bound;
+  const float in_rest = instance.model->model.bounding_radius * instance.input.largest_scale();
+  const float middle = height_of_bound(bound, plane), half = 0.85f * std::min(in_rest, bound.radius);
+  if (!(middle < -0.3f * bound.radius)) return {0, 0, middle - half};
+  return {std::clamp(0.5f - 0.5f * middle / std::max(half, 1e-9f), 0.0f, 1.0f), 1, middle - half};
+}
+
+Depth depth_of_spheres(const Instance& instance, const Plane& plane) {
   const CharacterModel& model = instance.model->model;
-  const float deep = -0.3f * model.bounding_radius * input.largest_scale();
+  const float deep = -0.3f * model.bounding_radius * instance.input.largest_scale();
   const float share = 1 / float(std::max<std::size_t>(model.spheres.size(), 1));
   Depth depth;
-  for (const ProxySphere& sphere : model.spheres) {
-    const Vec3 centre = transform_point(instance.parts->bones[sphere.bone], sphere.centre);
-    const float distance = dot(plane.normal, centre) - plane.offset;
+  Mat3x4 bone;
+  for (std::size_t s = 0; s < model.spheres.size(); ++s) {
+    const ProxySphere& sphere = model.spheres[s];
+    // Neighbours in the list often share a bone, which a clip would have to decode again.
+    if (s == 0 || sphere.bone != model.spheres[s - 1].bone) bone = bone_of(instance, sphere.bone);
+    const float distance = dot(plane.normal, transform_point(bone, sphere.centre)) - plane.offset;
     depth.share_below += distance < 0 ? share : 0;
     depth.share_deep += distance < deep ? share : 0;
     depth.lowest = std::min(depth.lowest, distance);
@@ -39,10 +51,23 @@ Depth depth_below(const Instance& instance, const Plane& plane) {
   return depth;
 }
 
+Depth depth_below(const Instance& instance, const Plane& plane) {
+  return has_bones(instance) ? depth_of_spheres(instance, plane) : depth_of_bound(instance, plane);
+}
+
+// Decoding the bones of a clip takes time. The centre of a standing body's bound is about 0.8 of its radius
+// above the ground.
+bool is_surely_above(const Instance& instance, const Plane& plane) {
+  const Sphere& bound = instance.input.bound;
+  return instance.input.clip.is_late && height_of_bound(bound, plane) > 0.2f * bound.radius;
+}
+
 }  // namespace
 
 GroundFinding check_ground(const Instance& instance) noexcept {
   const Plane& given = instance.input.ground;
+  const bool has_size = instance.input.scale > 0;  // hosts hide a body with matrices that are zero
+  if (!has_size || is_surely_above(instance, given)) return {};
   const Depth found = depth_below(instance, given);
   GroundFinding finding{found.share_deep > 0.05f || found.share_below > 0.4f, found.share_below,
                         -found.lowest};
