@@ -363,13 +363,41 @@ TEST_CASE("a body in the place of another one is logged if it is darkened") {
   const std::uint32_t count = log.stage.info.bone_count;
   Rows moved = identity;
   moved[3] = apart;
-  const std::vector<Rows> rows(count, moved);
-  const nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
+  const std::vector<Rows> rows(count, moved), unmoved(count, identity);
+  nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
   REQUIRE(nook_scene_set_pose(log.scene, log.ids[0], &desc) == NOOK_OK);
+  desc = pose_of_rows(unmoved[0].data(), count);
+  REQUIRE(nook_scene_set_pose(log.scene, log.ids[1], &desc) == NOOK_OK);
   if (is_linked) REQUIRE(nook_scene_link_nearest(log.scene, 4, 10) == NOOK_OK);
   for (int frame = 0; frame < 3; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
   REQUIRE(log.warnings.size() == (is_linked && apart == 0 ? 2u : 0u));
   for (const std::string& line : log.warnings) CHECK(has(line, "is at the same place and darkens it"));
+}
+
+TEST_CASE("bodies without a pose are logged after a second of updates, not while the host loads") {
+  LogStage log;
+  const float plane[4] = {0, 1, 0, 3};
+  REQUIRE(nook_scene_link_nearest(log.scene, 4, 10) == NOOK_OK);
+  for (const nook_instance_id id : log.ids) REQUIRE(nook_scene_set_ground(log.scene, id, plane) == NOOK_OK);
+  for (int frame = 0; frame < 59; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  CHECK(log.warnings.empty());
+  REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  CHECK(log.warnings.size() == 4);  // the ground and the place of each
+}
+
+TEST_CASE("a body that the host hides with zero matrices is not called below its ground") {
+  LogStage log;
+  const std::uint32_t count = log.stage.info.bone_count;
+  const std::vector<Rows> rows(count, Rows{});
+  const nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
+  const float plane[4] = {0, 1, 0, 3};
+  for (const nook_instance_id id : log.ids) {
+    REQUIRE(nook_scene_set_ground(log.scene, id, plane) == NOOK_OK);
+    REQUIRE(nook_scene_set_pose(log.scene, id, &desc) == NOOK_OK);
+  }
+  log.warnings.clear();  // of the zeros
+  for (int frame = 0; frame < 3; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  CHECK(log.warnings.empty());
 }
 
 TEST_CASE("AO that is read before the first update is logged once for an instance") {

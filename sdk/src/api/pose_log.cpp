@@ -7,6 +7,7 @@
 
 #include "sdk/src/character/body_check.h"
 #include "sdk/src/character/gpu_pose.h"
+#include "sdk/src/character/scene_pool.h"
 
 namespace nook::api {
 namespace {
@@ -133,8 +134,15 @@ void log_same_place(const Context& context, const Scene& scene, Instance& instan
       instance.id, other->id);
 }
 
+// Hosts may update while they load, before they pose a body. Until then, the body is at the origin, where
+// neither its ground nor another body is meant.
+bool is_loading(const Scene& scene, const Instance& instance) {
+  constexpr std::uint64_t updates = 60;
+  return !was_posed(instance) && scene.frame < instance.added_frame + updates;
+}
+
 void log_body(const Context& context, const Scene& scene, Instance& instance) {
-  if (!instance.id) return;
+  if (!instance.id || is_loading(scene, instance)) return;
   if (scene.terms & NOOK_TERM_GROUND) log_ground(context, instance);
   if (scene.terms & NOOK_TERM_LINKS) log_same_place(context, scene, instance);
   log_size(context, instance);
