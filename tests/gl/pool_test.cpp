@@ -15,6 +15,7 @@
 #include "tests/gl/gpu_poses.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/traced_loader.h"
+#include "tests/gl/world_scene.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -433,6 +434,85 @@ TEST_CASE("instances of a pool may be posed on the CPU, added, removed and left 
   nook_scene_destroy(&plain.scene);
   pooled.update();
   CHECK(pooled.near() == std::vector<std::size_t>{0, 2, 6});
+}
+
+TEST_CASE("a far instance of a pool does not darken the world, also with bones on the CPU") {
+  NOOK_NEED_COMPUTE(context);
+  using namespace nook::test::world;
+  WorldFixture fixture(context);
+  nook_world pass = fixture.made();
+  Numbers numbers(4);
+  CharacterModel body = sample_model();
+  add_world_casters(body, numbers);
+  nook_model model = load_model(fixture.host.handle, body);
+  nook_scene_desc scene_desc;
+  NOOK_OK_OR_FAIL(nook_scene_desc_init(&scene_desc));
+  nook_scene scene = nullptr;
+  NOOK_OK_OR_FAIL(nook_scene_create(fixture.host.handle, &scene_desc, &scene));
+  NOOK_OK_OR_FAIL(set_pool(fixture.gl, scene, 1, 10));
+  nook_instance_id id = 0;
+  NOOK_OK_OR_FAIL(nook_scene_add_instance(scene, model, &id));
+  const Camera camera = plain_camera(float(width) / height);
+  const Picture picture = look(camera, still_life(), width, height);
+  const View view = turned_view();
+  const ScreenFrame screen =
+      frame_desc(camera, width, height, fixture.depth_of(camera, picture), fixture.normals_of(picture), 1);
+  DarkenedFrame frame = world_frame(screen, view);
+  frame.scene = scene;
+  const Vec3 at = view.to_world({0, 0, -2.5f});
+  const std::vector<Mat3x4> bones(body.bone_count(), Mat3x4{{1, 0, 0, at.x, 0, 1, 0, at.y, 0, 0, 1, at.z}});
+  nook_pose_desc desc;
+  NOOK_OK_OR_FAIL(nook_pose_desc_init(&desc));
+  desc.kind = NOOK_POSE_REST_TO_WORLD;
+  desc.layout = NOOK_TRANSFORM_ROWS_3X4;
+  desc.transforms = bones.data()->m;
+  desc.transform_count = static_cast<std::uint32_t>(bones.size());
+  NOOK_OK_OR_FAIL(nook_scene_set_pose(scene, id, &desc));
+  const auto casters = [&](float aside) {
+    const float eye[3] = {at.x + aside, at.y, at.z};
+    NOOK_OK_OR_FAIL(nook_scene_set_camera(scene, eye));
+    NOOK_OK_OR_FAIL(nook_gl_scene_update(fixture.gl, scene));
+    NOOK_OK_OR_FAIL(nook_world_render(pass, &frame, &frame));
+    nook_world_info info{};
+    info.struct_size = sizeof info;
+    NOOK_OK_OR_FAIL(nook_world_describe(pass, &info));
+    return info.group_count;
+  };
+  CHECK(casters(5) == 1);
+  CHECK(casters(50) == 0);
+  CHECK(casters(5) == 1);
+  nook_scene_destroy(&scene);
+  nook_model_destroy(&model);
+}
+
+TEST_CASE("a far instance of a pool tells by a generation that another model gave it another view") {
+  NOOK_NEED_COMPUTE(context);
+  const Stage stage(context);
+  nook_model other = load_model(stage.host.handle, sample_model(32));
+  {
+    const PooledCrowd pooled(stage, 2, {2});
+    pooled.play({0, 0}, 0.1);
+    // The bones of the second one are on the CPU, far from the camera.
+    const std::vector<Mat3x4> bones(stage.bones, Mat3x4{{1, 0, 0, 50, 0, 1, 0, 0, 0, 0, 1, 0}});
+    nook_pose_desc desc;
+    NOOK_OK_OR_FAIL(nook_pose_desc_init(&desc));
+    desc.kind = NOOK_POSE_REST_TO_WORLD;
+    desc.layout = NOOK_TRANSFORM_ROWS_3X4;
+    desc.transforms = bones.data()->m;
+    desc.transform_count = stage.bones;
+    NOOK_OK_OR_FAIL(nook_scene_set_pose(pooled.scene, pooled.ids[1], &desc));
+    pooled.update();
+    CHECK(pooled.near() == std::vector<std::size_t>{0});
+    const auto before = pooled.views();
+    NOOK_OK_OR_FAIL(nook_scene_set_model(pooled.scene, pooled.ids[1], other));
+    pooled.update();
+    const auto after = pooled.views();
+    CHECK(after[0].generation == before[0].generation);
+    CHECK(after[1].is_near == 0);
+    CHECK(after[1].buffer != before[1].buffer);
+    CHECK(after[1].generation != before[1].generation);
+  }
+  nook_model_destroy(&other);
 }
 
 TEST_CASE("a scene with a pool refuses what it cannot do, and says why") {

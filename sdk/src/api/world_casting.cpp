@@ -93,7 +93,7 @@ Casting::Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* pr
     : scene_(scene), receiver_(receiver), props_(props), prop_count_(prop_count) {
   if (!scene) return;
   for (Instance& instance : scene->instances)
-    if (instance.parts && !instance.input.is_posed_on_gpu) pose_world_casters(instance);
+    if (can_cast(instance)) pose_world_casters(instance);
 }
 
 std::uint32_t Casting::group_count() const {

@@ -49,9 +49,11 @@ class Casting {
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
 
  private:
-  bool casts(const Instance& instance) const {
-    return instance.parts && instance.id != receiver_ && !instance.input.is_posed_on_gpu;
+  // A far instance of a pool has parts if the host posed it on the CPU.
+  static bool can_cast(const Instance& instance) {
+    return instance.parts && !instance.plan.is_far && !instance.input.is_posed_on_gpu;
   }
+  bool casts(const Instance& instance) const { return can_cast(instance) && instance.id != receiver_; }
   bool casts(const Occluder& occluder) const {
     return occluder.id != 0 && (occluder.receiver == 0 || occluder.receiver == receiver_);
   }

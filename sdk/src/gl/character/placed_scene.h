@@ -29,7 +29,8 @@ struct ModelData {
   std::uint32_t bones() const { return static_cast<std::uint32_t>(model->model.bone_count()); }
 
   Ref<const LoadedModel> model;
-  std::uint32_t users = 0;  // number of chunks that use the model
+  std::uint32_t users = 0;   // number of chunks that use the model
+  std::uint32_t number = 0;  // identifies the model among the tier's models; starts at 1
 };
 
 // Creates a buffer whose data never change. Throws Failure. It is Failure(UNSUPPORTED) if the buffer is too
@@ -43,9 +44,14 @@ Buffer static_buffer(Device& device, const char* label, const Vector<T>& data) {
 // Returns the tier's copy of a model. Creates it if it does not exist yet. Throws Failure.
 template <class Model>
 Model& model_data(Device& device, List<Model>& models, const Ref<const LoadedModel>& loaded) {
-  for (Model& known : models)
+  std::uint32_t last = 0;
+  for (Model& known : models) {
     if (known.model.get() == loaded.get()) return known;
-  return models.emplace_back(device, loaded);
+    last = std::max(last, known.number);
+  }
+  Model& made = models.emplace_back(device, loaded);
+  made.number = last + 1;
+  return made;
 }
 
 // Releases models that no chunk uses any more.
@@ -94,10 +100,10 @@ std::uint32_t max_in_chunk(const Device& device, std::uint64_t share);
 template <class Chunk>
 struct Placement {
   nook_instance_id id = 0;
-  std::uint32_t place = 0;
-  Chunk* chunk = nullptr;  // null: in the far form of a pool
-  bool evaluated = false;  // the AO in the chunk comes from an update
-  bool lit = false;        // the last update saw a light
+  std::uint32_t place = 0;  // without a chunk, ModelData::number of the model whose ones the view shows
+  Chunk* chunk = nullptr;   // null: in the far form of a pool
+  bool evaluated = false;   // the AO in the chunk comes from an update
+  bool lit = false;         // the last update saw a light
   // Only in a scene with a pool (compute_pool.cpp).
   bool is_chosen = false;        // for a place in this update
   bool is_new = false;           // in its place, which still has the AO of another instance
@@ -187,6 +193,7 @@ class PlacedScene {
     chunk.first_free = std::min(chunk.first_free, placement.place);
     --chunk.living;
     placement.chunk = nullptr;
+    placement.place = chunk.data.number;
   }
   const Placement<Chunk>* find(nook_instance_id instance) const {
     const auto slot = static_cast<std::size_t>(&instance_of(*scene, instance) - scene->instances.data());
@@ -246,8 +253,14 @@ class PlacedScene {
       for (; room < wanted; room += chunks.back().capacity)
         chunks.emplace_back(device, shared, std::min(wanted - room, most));
     }
-    for (std::uint32_t slot = 0; slot < scene->instances.size(); ++slot)
-      placements[slot].id = scene->instances[slot].id;
+    for (std::uint32_t slot = 0; slot < scene->instances.size(); ++slot) {
+      Placement<Chunk>& placement = placements[slot];
+      placement.id = scene->instances[slot].id;
+      if (!placement.id || placement.chunk) continue;
+      const std::uint32_t number = model_data(device, models, scene->instances[slot].model).number;
+      if (placement.place != number) placement.generation = 0;  // another view
+      placement.place = number;
+    }
   }
   // Returns a chunk of the model that has a free place. If there is none, creates a chunk for all instances
   // of the model that have no place yet. If the model already has chunks, the new chunk is larger, so that
