@@ -245,34 +245,38 @@ TEST_CASE("debug: a mask that covers every surface is logged, by each pass") {
   CountedContext host;
   Trace trace(context);
   const DebugGl gl(context, host.handle, Trace::loader, &trace, 1);
-  nook_nnao pass = create_pass(gl.handle, pass_desc(width, height));
-  nook_world_desc world_desc = world::world_desc(width, height);
-  nook_world world = nullptr;
-  NOOK_OK_OR_FAIL(nook_world_create(gl.handle, &world_desc, &world));
-  const auto reports = [&](GLuint texture, nook_gbuffer_ao mode) {
+  // Of new passes, which see one mask after the other.
+  const auto reports = [&](const std::vector<GLuint>& textures, nook_gbuffer_ao mode) {
+    nook_nnao pass = create_pass(gl.handle, pass_desc(width, height));
+    nook_world_desc world_desc = world::world_desc(width, height);
+    nook_world world = nullptr;
+    NOOK_OK_OR_FAIL(nook_world_create(gl.handle, &world_desc, &world));
     const std::ptrdiff_t before = lines_with(host, "the mask covers every surface");
-    for (int i = 0; i < 4; ++i) {
+    for (std::size_t i = 0; i < 4 * textures.size(); ++i) {
       ScreenFrame frame = frame_desc(camera, width, height, depth, 0, 0.5f);
       frame.gbuffer_ao = mode;
-      frame.gbuffer_ao_texture = texture;
+      frame.gbuffer_ao_texture = textures[i / 4];
       DarkenedFrame darkened(frame);
       NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
       NOOK_OK_OR_FAIL(nook_world_render(world, &darkened, &darkened));
       context.gl().Finish();  // so that answers are there
     }
+    nook_nnao_destroy(&pass);
+    nook_world_destroy(&world);
     return lines_with(host, "the mask covers every surface") - before;
   };
-  CHECK(reports(half, NOOK_GBUFFER_AO_EXCLUDE) == 0);
-  CHECK(reports(all, NOOK_GBUFFER_AO_EXCLUDE) == 2);
-  CHECK(reports(half, NOOK_GBUFFER_AO_REPLACE) == 0);
-  CHECK(reports(all, NOOK_GBUFFER_AO_REPLACE) == 2);
+  CHECK(reports({half}, NOOK_GBUFFER_AO_EXCLUDE) == 0);
+  CHECK(reports({all}, NOOK_GBUFFER_AO_EXCLUDE) == 2);
+  CHECK(reports({half}, NOOK_GBUFFER_AO_REPLACE) == 0);
+  CHECK(reports({all}, NOOK_GBUFFER_AO_REPLACE) == 2);
   // A weight above one half excludes a surface from the screen pass, but it is mixed otherwise.
-  CHECK(reports(most, NOOK_GBUFFER_AO_REPLACE) == 0);
-  CHECK(reports(most, NOOK_GBUFFER_AO_EXCLUDE) == 1);
+  CHECK(reports({most}, NOOK_GBUFFER_AO_REPLACE) == 0);
+  CHECK(reports({most}, NOOK_GBUFFER_AO_EXCLUDE) == 1);
+  // A mask that was right: the camera came close to a character.
+  CHECK(reports({half, all, half, all}, NOOK_GBUFFER_AO_EXCLUDE) == 0);
+  CHECK(reports({all, half, all}, NOOK_GBUFFER_AO_EXCLUDE) == 2);
   // The smaller AO counts, so green has no meaning.
-  CHECK(reports(all, NOOK_GBUFFER_AO_MIN) == 0);
-  nook_nnao_destroy(&pass);
-  nook_world_destroy(&world);
+  CHECK(reports({all}, NOOK_GBUFFER_AO_MIN) == 0);
 }
 
 TEST_CASE("debug: a radius in another unit than the depth is logged, once") {
@@ -281,7 +285,10 @@ TEST_CASE("debug: a radius in another unit than the depth is logged, once") {
   // So many rows that half a metre covers 5 to 25 of them, as the surfaces are 1 to 6 metres away.
   constexpr int wide = 96, high = 64;
   const Camera camera = plain_camera(float(wide) / high);
-  const GLuint depth = fixture.depth_of(camera, look(camera, still_life(), wide, high));
+  Picture picture = look(camera, still_life(), wide, high);
+  const GLuint depth = fixture.depth_of(camera, picture);
+  for (float& surface : picture.depth) surface *= 0.15f;
+  const GLuint close = fixture.depth_of(camera, picture);
   for (const std::int32_t half : {0, 1}) {
     CountedContext host;
     Trace trace(context);
@@ -289,9 +296,9 @@ TEST_CASE("debug: a radius in another unit than the depth is logged, once") {
     PassDesc desc = pass_desc(wide, high);
     desc.half_resolution = half;
     nook_nnao pass = create_pass(gl.handle, desc);
-    const auto render = [&](float radius, nook_nnao_radius_kind kind) {
+    const auto render = [&](float radius, nook_nnao_radius_kind kind, GLuint seen) {
       for (int i = 0; i < 6; ++i) {
-        ScreenFrame frame = frame_desc(camera, wide, high, depth, 0, radius);
+        ScreenFrame frame = frame_desc(camera, wide, high, seen, 0, radius);
         frame.radius_kind = kind;
         frame.scene_size = 100;
         NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
@@ -302,12 +309,18 @@ TEST_CASE("debug: a radius in another unit than the depth is logged, once") {
     };
     using Counts = std::pair<std::ptrdiff_t, std::ptrdiff_t>;
     // Metres; a share of the screen fits every depth.
-    CHECK((render(0.5f, NOOK_NNAO_RADIUS_METRES) == Counts{0, 0}));
-    CHECK((render(1, NOOK_NNAO_RADIUS_SCREEN) == Counts{0, 0}));
+    CHECK((render(0.5f, NOOK_NNAO_RADIUS_METRES, depth) == Counts{0, 0}));
+    CHECK((render(1, NOOK_NNAO_RADIUS_SCREEN, depth) == Counts{0, 0}));
     // Centimetres in a scene in metres, and metres in kilometres or a scene in centimetres.
-    CHECK((render(50, NOOK_NNAO_RADIUS_METRES) == Counts{1, 0}));
-    CHECK((render(0.005f, NOOK_NNAO_RADIUS_METRES) == Counts{1, 1}));
-    CHECK((render(0.5f, NOOK_NNAO_RADIUS_SCENE) == Counts{2, 1}));
+    CHECK((render(50, NOOK_NNAO_RADIUS_METRES, depth) == Counts{1, 0}));
+    CHECK((render(0.005f, NOOK_NNAO_RADIUS_METRES, depth) == Counts{1, 1}));
+    CHECK((render(0.5f, NOOK_NNAO_RADIUS_SCENE, depth) == Counts{2, 1}));
+    // Two metres fit the picture, until the camera is in front of a wall.
+    CHECK((render(2, NOOK_NNAO_RADIUS_METRES, depth) == Counts{2, 1}));
+    CHECK((render(2, NOOK_NNAO_RADIUS_METRES, close) == Counts{2, 1}));
+    CHECK((render(2.1f, NOOK_NNAO_RADIUS_METRES, close) == Counts{2, 1}));
+    CHECK((render(2, NOOK_NNAO_RADIUS_METRES, depth) == Counts{2, 1}));
+    CHECK((render(2.1f, NOOK_NNAO_RADIUS_METRES, close) == Counts{3, 1}));
     nook_nnao_destroy(&pass);
   }
 }

@@ -25,6 +25,7 @@ bool SurfaceWatch::asks(int question) const {
 bool SurfaceWatch::begin_frame(const Device& device, const NnaoFrame& frame) {
   if (!read(device)) return false;
   if (is_watching_) judge(device);
+  forget_changed(frame);
   is_watching_ = true;
   frame_ = frame;
   return true;
@@ -56,6 +57,14 @@ bool SurfaceWatch::read(const Device& device) {
   return true;
 }
 
+// Frames with other settings do not tell whether the settings of the next frame are meant.
+void SurfaceWatch::forget_changed(const NnaoFrame& next) {
+  if (next.gbuffer_ao != frame_.gbuffer_ao) was_right_[NOOK_WATCH_UNMASKED] = false;
+  if (next.radius != frame_.radius || next.radius_kind != frame_.radius_kind ||
+      next.scene_size != frame_.scene_size)
+    was_right_[NOOK_WATCH_FAR_ENOUGH] = was_right_[NOOK_WATCH_NEAR_ENOUGH] = false;
+}
+
 void SurfaceWatch::judge(const Device& device) {
   const GLuint seen = queries_[NOOK_WATCH_SURFACE].pixels;
   for (int question = 0; question < questions; ++question) {
@@ -66,9 +75,11 @@ void SurfaceWatch::judge(const Device& device) {
     const bool is_radius = question == NOOK_WATCH_FAR_ENOUGH || question == NOOK_WATCH_NEAR_ENOUGH;
     const std::uint64_t pixels = queries_[std::size_t(question)].pixels;
     const bool is_wrong = is_radius ? 20 * pixels < seen : pixels == 0;
-    bool& told = told_[std::size_t(question)];
-    if (is_wrong && !told) report(device, question);
-    told = is_wrong;
+    bool &was_wrong = was_wrong_[std::size_t(question)], &was_right = was_right_[std::size_t(question)];
+    if (is_wrong && !was_wrong && !was_right) report(device, question);
+    was_wrong = is_wrong;
+    // A sky that fills the picture is like a depth that the host stopped to draw.
+    if (question != NOOK_WATCH_SURFACE) was_right |= !is_wrong;
   }
 }
 

@@ -1,6 +1,7 @@
 // If nook_gl_desc.debug is set, logs a message when a frame cannot show AO. Then its depth shows no surface,
-// the host's mask covers all surfaces, or the radius does not fit the depth. The message comes when the
-// results of queries are available, which may be some frames later.
+// the host's mask covers all surfaces, or the radius does not fit the depth. Masks and radii that were right
+// in an earlier frame are not logged: the camera may be close to a character that the mask covers, or to a
+// wall. The message comes when the results of queries are available, which may be some frames later.
 #pragma once
 
 #include <array>
@@ -35,11 +36,13 @@ class SurfaceWatch {
 
   bool asks(int question) const;
   bool read(const Device& device);
+  void forget_changed(const NnaoFrame& next);
   void judge(const Device& device);
   void report(const Device& device, int question) const;
 
   std::array<Query, questions> queries_;
-  std::array<bool, questions> told_{};
+  std::array<bool, questions> was_wrong_{};  // in the last frame
+  std::array<bool, questions> was_right_{};  // in a frame with the same mode of the mask, or the same radius
   bool has_radius_, is_watching_ = false;
   GLenum target_;
   NnaoFrame frame_{};  // the frame that the queries belong to; its pointers are not followed
