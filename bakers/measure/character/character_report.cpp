@@ -103,8 +103,9 @@ void add_errors_without_noise(Json& row, const BakedCharacter& baked, std::span<
 
 // Adds the errors at points between vertices.
 void add_surface_errors(Json& row, const BakedCharacter& baked, std::span<const Pose> poses,
-                        std::uint64_t seed) {
-  const SurfaceErrors errors = measure_surface(baked.character.mesh, baked.model, poses, seed);
+                        std::uint64_t seed, const StageProgress& progress) {
+  const SurfaceErrors errors = measure_surface(baked.character.mesh, baked.model, poses, seed,
+                                               progress("ray tracing between the vertices"));
   row["mse_surface"] = errors.model;
   row["mse_surface_static"] = errors.static_bake;
   row["mse_surface_exact_vertices"] = errors.exact_vertices;
@@ -167,7 +168,8 @@ CharacterReport measure_character(const BakedCharacter& baked, const Recipe* rec
                                          evaluation_ray_seed(settings.seed), progress("ray tracing"));
   report.row = model_row(baked, measured, settings.name, report.evaluation);
   add_errors_without_noise(report.row, baked, measured.poses, settings, report.evaluation, progress);
-  add_surface_errors(report.row, baked, measured.poses, mix_bits(settings.seed ^ 0x73757266616365ull));
+  add_surface_errors(report.row, baked, measured.poses, mix_bits(settings.seed ^ 0x73757266616365ull),
+                     progress);
   add_update_errors(report.row, baked.model, measured.poses, report.evaluation.truth);
   if (!settings.peers.empty())
     add_peers(report.row, baked.character, recipe, measured.poses, report.evaluation.truth, settings,

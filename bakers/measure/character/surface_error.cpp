@@ -45,7 +45,8 @@ Value interpolated(const SurfacePoint& point, std::span<const Value> values) {
 }
 
 std::vector<float> traced_points(const SkinnedMesh& mesh, const Pose& pose,
-                                 std::span<const SurfacePoint> points, std::uint64_t seed) {
+                                 std::span<const SurfacePoint> points, std::uint64_t seed,
+                                 const Progress& progress) {
   std::vector<Vec3> position, normal, point_position, point_normal;
   skin_positions(mesh, pose, position);
   posed_normals(mesh, pose, position, normal);
@@ -59,24 +60,26 @@ std::vector<float> traced_points(const SkinnedMesh& mesh, const Pose& pose,
   settings.rays = rays;
   settings.seed = seed;
   settings.origin_offset = ray_origin_offset(mesh.position);
-  return trace_ao(TriangleSoup{position, mesh.triangle}, {point_position, point_normal}, settings);
+  return trace_ao(TriangleSoup{position, mesh.triangle}, {point_position, point_normal}, settings, progress);
 }
 
 }  // namespace
 
 SurfaceErrors measure_surface(const SkinnedMesh& mesh, const CharacterModel& model,
-                              std::span<const Pose> poses, std::uint64_t seed) {
+                              std::span<const Pose> poses, std::uint64_t seed, const Progress& progress) {
   std::vector<Pose> sample;
   const std::size_t count = std::min(most_poses, poses.size());
   for (std::size_t i = 0; i < count; ++i) sample.push_back(poses[i * poses.size() / count]);
   Random random(seed);
   const std::vector<SurfacePoint> points = spread_points(mesh, random);
-  const AoTargets vertices = trace_character_ao(mesh, sample, rays, mix_bits(seed));
+  // Tracing the vertices takes nearly all of the time.
+  const AoTargets vertices = trace_character_ao(mesh, sample, rays, mix_bits(seed), progress);
+  const Progress goes_on = [&](std::size_t, std::size_t) { return !progress || progress(count, count); };
 
   SurfaceErrors errors;
   double visible = 0;
   for (std::size_t p = 0; p < count; ++p) {
-    const std::vector<float> truth = traced_points(mesh, sample[p], points, mix_bits(seed + p));
+    const std::vector<float> truth = traced_points(mesh, sample[p], points, mix_bits(seed + p), goes_on);
     const std::vector<float> predicted = predict_ao(model, sample[p]);
     std::vector<float> exact;
     for (const std::uint16_t v : vertices.row(p)) exact.push_back(float(v) * AoTargets::scale);

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/ambient_occlusion.h"
 #include "sdk/src/character/model.h"
 
 namespace nook::measure {
@@ -19,8 +20,10 @@ struct SurfaceErrors {
 };
 
 // Traces 2,048 points in at most 24 of the poses, with 256 rays for each point. The points are spread evenly
-// over the area of the rest pose. The same seed gives the same errors on any number of threads.
+// over the area of the rest pose. The same seed gives the same errors on any number of threads. All errors
+// are 0 if no point is visible. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
 SurfaceErrors measure_surface(const bake::SkinnedMesh& mesh, const CharacterModel& model,
-                              std::span<const bake::Pose> poses, std::uint64_t seed);
+                              std::span<const bake::Pose> poses, std::uint64_t seed,
+                              const bake::Progress& progress = {});
 
 }  // namespace nook::measure

@@ -1,8 +1,14 @@
 // Errors over all vertex-poses and over the visible ones, on a body with one half inside the other.
 #include "bakers/measure/character/character_error.h"
 
+#include <tbb/global_control.h>
+
+#include <numeric>
+
 #include "bakers/character/character_bake.h"
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/measure/character/surface_error.h"
+#include "sdk/src/core/failure.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/catch.h"
 
@@ -127,4 +133,46 @@ TEST_CASE("errors over visible vertex-poses leave out what ray tracing finds bla
     CHECK(error.mse_visible == Approx(constant.value()).epsilon(relative));
     CHECK(error.mse > error.mse_visible);  // the black half is far from 0.75
   }
+}
+
+TEST_CASE("errors between vertices are those of interpolated AO, and need a visible surface") {
+  SkinnedMesh mesh = nested_tubes();
+  mesh.triangle.push_back({0, 0, 1});  // without an area
+  const std::vector<Pose> poses = small_bends(mesh);
+  BakeSettings settings;
+  settings.spheres = 8;
+  settings.key_points = 30;
+  settings.rays = 64;
+  settings.steps = 20;
+  CharacterModel model = bake_character(mesh, poses, settings).model;
+  // The same constant by both.
+  std::fill(model.alpha.begin(), model.alpha.end(), 0.0f);
+  std::fill(model.bias.begin(), model.bias.end(), 0.25f);
+  std::fill(model.static_ao.begin(), model.static_ao.end(), 0.75f);
+  const SurfaceErrors errors = measure_surface(mesh, model, poses, 3);
+  CHECK(errors.model > 0.01);
+  CHECK(errors.model == Approx(errors.static_bake).epsilon(1e-5));  // sums of floats
+  CHECK(errors.exact_vertices < errors.model);
+  const std::vector<float> area = vertex_areas(mesh, mesh.position);
+  const auto half = area.begin() + std::ptrdiff_t(area.size() / 2);
+  const double outer = double(std::accumulate(area.begin(), half, 0.0f)),
+               inner = double(std::accumulate(half, area.end(), 0.0f));
+  // The inner tube is hidden but for where it comes out at the bend.
+  CHECK(errors.visible_share == Approx(outer / (outer + inner)).margin(0.05));
+  {
+    const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
+    const SurfaceErrors same = measure_surface(mesh, model, poses, 3);
+    CHECK(same.model == errors.model);
+    CHECK(same.exact_vertices == errors.exact_vertices);
+  }
+  for (const int calls : {0, 3, 20}) {  // of about 36: a pose each, and 8 blocks of its points
+    int left = calls;
+    CHECK_THROWS_AS(
+        measure_surface(mesh, model, poses, 3, [&](std::size_t, std::size_t) { return left-- > 0; }),
+        Failure);
+  }
+  // All fronts face inwards.
+  for (auto& t : mesh.triangle) std::swap(t[1], t[2]);
+  const SurfaceErrors inside = measure_surface(mesh, model, {poses.data(), 1}, 3);
+  CHECK(inside.visible_share == Approx(0).margin(0.05));
 }
