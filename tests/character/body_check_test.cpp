@@ -139,3 +139,17 @@ TEST_CASE("how deep a clip is below its ground is told by its bones, which stay 
   CHECK(std::abs(finding.depth - 2.95f) < 1e-3f);
   CHECK(body.instance().input.clip.is_late);
 }
+
+TEST_CASE("far instances of a pool that wait at one place darken nobody there") {
+  Scene scene = make_scene();
+  const auto model = load(standing_body());
+  const nook_instance_id one = place(scene, model, {0, 0, 0}), other = place(scene, model, {0, 0, 0});
+  link(scene, one, other);
+  resolve_casters(scene, [](std::uint32_t) { return false; });
+  CHECK(caster_at_same_place(scene, instance_of(scene, one)) == &instance_of(scene, other));
+  CHECK(caster_at_same_place(scene, instance_of(scene, other)) == nullptr);
+  // They leave their places of the pool together, and keep their lists of casters.
+  for (const nook_instance_id id : {one, other}) instance_of(scene, id).plan.is_far = true;
+  resolve_casters(scene, [](std::uint32_t) { return false; });
+  CHECK(caster_at_same_place(scene, instance_of(scene, one)) == nullptr);
+}

@@ -100,10 +100,11 @@ float relative_size(const Instance& instance) noexcept {
 
 const Instance* caster_at_same_place(const Scene& scene, const Instance& instance) noexcept {
   const Sphere& own = instance.input.bound;
+  if (instance.plan.is_far) return nullptr;  // its casters are of an earlier update
   for (const std::uint32_t slot : instance.plan.casters) {
     if (slot >= scene.instances.size()) continue;  // of an earlier update
     const Instance& other = scene.instances[slot];
-    if (other.id && &other != &instance && other.model.get() == instance.model.get() &&
+    if (other.id && &other != &instance && !other.plan.is_far && other.model.get() == instance.model.get() &&
         length(other.input.bound.centre - own.centre) < 0.01f * own.radius)
       return &other;
   }
