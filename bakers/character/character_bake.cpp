@@ -15,6 +15,7 @@
 #include "bakers/character/linear_fit.h"
 #include "bakers/character/mini_batch_fit.h"
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/stand_ins.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/model.h"
 #include "sdk/src/character/model_file.h"
@@ -253,10 +254,11 @@ TracedPoses trace_poses(const SkinnedMesh& mesh, std::span<const Pose> poses, co
   set.poses.assign(poses.begin(), poses.end());
   set.held_out = hold_out(set.poses);
   // The paper's fit has no stand-ins: it traces AO at the vertices themselves.
-  const StandIns stand_ins =
-      settings.fit == FitMethod::paper ? StandIns() : choose_stand_ins(mesh, set.poses, settings.seed);
-  set.targets = trace_character_ao(mesh, set.poses, settings.rays, settings.seed,
-                                   stage_progress(progress, BakeStage::raytrace), stand_ins);
+  const Progress ray_progress = stage_progress(progress, BakeStage::raytrace);
+  const StandIns stand_ins = settings.fit == FitMethod::paper
+                                 ? StandIns()
+                                 : choose_stand_ins(mesh, set.poses, settings.seed, ray_progress);
+  set.targets = trace_character_ao(mesh, set.poses, settings.rays, settings.seed, ray_progress, stand_ins);
   report.noise_floor_held_out_mse =
       measure_noise_floor(mesh, set.poses, set.targets, settings.rays, settings.seed, stand_ins);
   traced.precise = precise_share(mesh, set, stand_ins, settings, [&](std::size_t, std::size_t) {

@@ -7,6 +7,7 @@
 
 #include "bakers/character/export_model.h"
 #include "bakers/character/fit_state.h"
+#include "bakers/raytrace/stand_ins.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -110,7 +111,7 @@ double calibrate_offsets(CharacterModel& model, const SkinnedMesh& mesh, std::sp
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "a pose to calibrate to has the wrong number of bones (got %zu, need %zu)", pose.size(),
                     mesh.bones.size());
-  const StandIns stand_ins = choose_stand_ins(mesh, poses, settings.seed);
+  const StandIns stand_ins = choose_stand_ins(mesh, poses, settings.seed, progress);
   return fit_offsets(model, poses,
                      trace_character_ao(mesh, poses, settings.rays, settings.seed, progress, stand_ins));
 }

@@ -11,6 +11,7 @@
 #include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
 #include "bakers/raytrace/ray_scene.h"
+#include "bakers/raytrace/stand_ins.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -52,7 +53,7 @@ CharacterModel refit_in_metres(const CharacterModel& model, const SkinnedMesh& m
                                const Progress& progress) {
   TrainingSet set;
   set.poses.assign(poses.begin(), poses.end());
-  const StandIns stand_ins = choose_stand_ins(mesh, poses, settings.seed);
+  const StandIns stand_ins = choose_stand_ins(mesh, poses, settings.seed, progress);
   set.targets = trace_character_ao(mesh, poses, settings.rays, settings.seed, progress, stand_ins);
   set.vertex_weight.assign(mesh.vertex_count(), 1.0f);
   const std::vector<float> area = vertex_areas(mesh, mesh.position);

@@ -6,6 +6,7 @@
 #include "bakers/character/pose_sets.h"
 #include "bakers/character/recipe.h"
 #include "bakers/import/content_hash.h"
+#include "bakers/raytrace/stand_ins.h"
 #include "platform/peak_memory.h"
 #include "platform/stopwatch.h"
 #include "sdk/src/character/clip_set.h"
@@ -104,11 +105,12 @@ BakedFile bake_clips_file(const ImportedCharacter& character, const CharacterMod
                           const ClipFrames& frames, const ClipTask& task, const StageReport& progress,
                           const BakeIdentity& identity) {
   const platform::Stopwatch watch;
-  const StandIns stand_ins = choose_stand_ins(character.mesh, frames.poses, task.tables.seed);
-  const AoTargets targets = trace_character_ao(
-      character.mesh, frames.poses, task.rays, task.tables.seed,
-      [&](std::size_t done, std::size_t total) { return progress(JobStage::raytrace, done, total); },
-      stand_ins);
+  const Progress ray_progress = [&](std::size_t done, std::size_t total) {
+    return progress(JobStage::raytrace, done, total);
+  };
+  const StandIns stand_ins = choose_stand_ins(character.mesh, frames.poses, task.tables.seed, ray_progress);
+  const AoTargets targets =
+      trace_character_ao(character.mesh, frames.poses, task.rays, task.tables.seed, ray_progress, stand_ins);
   const double seconds_raytrace = watch.seconds();
   const double noise =
       measure_noise_floor(character.mesh, frames.poses, targets, task.rays, task.tables.seed, stand_ins);

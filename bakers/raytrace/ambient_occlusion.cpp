@@ -13,6 +13,7 @@
 
 #include "bakers/import/posed_normals.h"
 #include "bakers/import/skinned_mesh.h"
+#include "bakers/raytrace/stand_ins.h"
 #include "sdk/src/core/failure.h"
 
 namespace nook::bake {
@@ -167,18 +168,19 @@ StandIns all_stand_ins(const SkinnedMesh& mesh) {
 
 // Adds up the weights of each point over the poses in which it is visible and its vertex is hidden.
 std::vector<float> count_uses(const SkinnedMesh& mesh, std::span<const Pose> poses, const StandIns& all,
-                              std::uint64_t seed) {
+                              std::uint64_t seed, const Progress& progress) {
   constexpr std::uint32_t rays = 32;
+  constexpr std::size_t vertices_per_task = 32;  // a hidden vertex traces tens of points
   const float offset = ray_origin_offset(mesh.position);
   const HemispherePatterns patterns(rays, seed);
   const RayDevice device;
   std::vector<float> uses(all.points.size());
-  for (std::size_t p = 0; p < poses.size(); ++p) {
+  Pace pace(progress, poses.size());
+  for (std::size_t p = 0; p < poses.size() && !pace.is_stopped(); ++p) {
     PosedSurface surface;
     surface.pose(mesh, poses[p]);
     const RayScene scene(device, surface.position, mesh.triangle);
-    tbb::parallel_for(std::size_t(0), mesh.vertex_count(), [&](std::size_t v) {
-      const FlushDenormals flush;
+    const auto count = [&](std::size_t v) {
       std::uint64_t random = mix_bits(mix_bits(seed + p) ^ v);
       if (trace_point(scene, surface.position[v], surface.normal[v], patterns, unlimited, offset, random) >=
           hidden_below)
@@ -188,20 +190,38 @@ std::vector<float> count_uses(const SkinnedMesh& mesh, std::span<const Pose> pos
         if (trace_surface_point(scene, surface, all.points[i].at, patterns, offset, random) >= hidden_below)
           uses[i] += all.points[i].weight * all.points[i].at.weight[0];
       }
-    });
+    };
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, mesh.vertex_count(), vertices_per_task),
+        [&](const auto& range) {
+          if (pace.is_stopped()) return;
+          const FlushDenormals flush;
+          for (std::size_t v = range.begin(); v < range.end(); ++v) count(v);
+          pace.add(0);
+        },
+        tbb::simple_partitioner());
   }
+  pace.throw_if_stopped("poses");
   return uses;
 }
 
 }  // namespace
 
 StandIns choose_stand_ins(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint64_t seed) {
+  return choose_stand_ins(mesh, poses, seed, {});
+}
+
+StandIns choose_stand_ins(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint64_t seed,
+                          const Progress& progress) {
   constexpr std::size_t most_poses = 24, most_points = 4;
   std::vector<Pose> sample;
   const std::size_t count = std::min(most_poses, poses.size());
   for (std::size_t i = 0; i < count; ++i) sample.push_back(poses[i * poses.size() / count]);
   const StandIns all = all_stand_ins(mesh);
-  const std::vector<float> uses = count_uses(mesh, sample, all, seed);
+  const Progress no_pose_yet = [&](std::size_t, std::size_t) {
+    return !progress || progress(0, poses.size());
+  };
+  const std::vector<float> uses = count_uses(mesh, sample, all, seed, no_pose_yet);
   StandIns chosen;
   std::vector<std::uint32_t> order;
   for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <utility>
 
+#include "bakers/raytrace/stand_ins.h"
+#include "sdk/src/core/failure.h"
 #include "tests/bakers/character/bending_tube.h"
 #include "tests/bakers/raytrace/sphere_soup.h"
 #include "tests/catch.h"
@@ -152,6 +154,15 @@ TEST_CASE(
 
   const tbb::global_control single(tbb::global_control::max_allowed_parallelism, 1);
   CHECK(trace_character_ao(mesh, poses, 256, 5, {}, choose_stand_ins(mesh, poses, 5)).value == shown.value);
+
+  std::size_t calls = 0;
+  const StandIns told = choose_stand_ins(mesh, poses, 5, [&](std::size_t done, std::size_t total) {
+    ++calls;
+    return done == 0 && total == poses.size();
+  });
+  CHECK(calls > 1);
+  CHECK(told.first == stand_ins.first);
+  CHECK_THROWS_AS(choose_stand_ins(mesh, poses, 5, [](std::size_t, std::size_t) { return false; }), Failure);
 }
 
 TEST_CASE("progress can cancel") {
