@@ -66,7 +66,8 @@ bool is_surely_above(const Instance& instance, const Plane& plane) {
 
 GroundFinding check_ground(const Instance& instance) noexcept {
   const Plane& given = instance.input.ground;
-  const bool has_size = instance.input.scale > 0;  // hosts hide a body with matrices that are zero
+  // Hosts hide a body with matrices that are zero. nearest_similarity gives these the scale 1e-6.
+  const bool has_size = instance.input.largest_scale() > 2e-6f;
   if (!has_size || is_surely_above(instance, given)) return {};
   const Depth found = depth_below(instance, given);
   GroundFinding finding{found.share_deep > 0.05f || found.share_below > 0.4f, found.share_below,
