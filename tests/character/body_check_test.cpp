@@ -1,5 +1,5 @@
-// Which grounds the log calls wrong: those that darken much of a body, and none under a body that stands,
-// jumps, lies, swims or climbs, wherever the pose of the body is.
+// The log calls a ground wrong if it darkens much of a body. It accepts the ground under a body that stands,
+// jumps, lies, swims or climbs. The pose may be on the CPU, in a clip or on the GPU.
 #include "sdk/src/character/body_check.h"
 
 #include "sdk/src/character/gpu_pose.h"

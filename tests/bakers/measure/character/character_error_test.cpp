@@ -135,7 +135,7 @@ TEST_CASE("errors over visible vertex-poses leave out what ray tracing finds bla
   }
 }
 
-TEST_CASE("errors between vertices are those of interpolated AO, and need a visible surface") {
+TEST_CASE("errors between vertices measure interpolated AO, and need a visible surface") {
   SkinnedMesh mesh = nested_tubes();
   mesh.triangle.push_back({0, 0, 1});  // without an area
   const std::vector<Pose> poses = small_bends(mesh);
