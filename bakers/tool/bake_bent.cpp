@@ -56,19 +56,20 @@ void run(Options o) {
 void add_bake_bent(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "bent",
-      "add bent normals to a baked character.\nThe bake ray traces a few poses, and adds two vectors to each "
-      "vertex that describe which directions the body blocks. Everything else in the model stays the same.");
+      "add bent normals to the baked model of a character.\nA bent normal is the mean direction in which a "
+      "point is open. The bake traces rays in a few poses of the body. For each vertex, it stores two "
+      "vectors that describe which directions the body blocks. The AO of the model does not change.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("character", o.input, "the rigged character, a .glb or .gltf file").required();
   command.add_input("model", o.model, "the model that was baked from the character, a .nook file").required();
   add_bake_options(command, o.baking);
-  command.add_option("--auto-poses", o.task.auto_poses, "number of generated poses to trace")
+  command.add_option("--auto-poses", o.task.auto_poses, "number of generated poses in which to trace rays")
       .check(in_range(8, 100000))
       .capture_default_str();
   command
       .add_option("--samples-per-clip", o.task.samples_per_clip,
-                  "number of poses from each clip that the model was fitted to")
+                  "number of poses in which to trace rays, for each clip that the model was fitted to")
       .check(in_range(1, 100000))
       .capture_default_str();
   command.add_option("--rays", o.task.rays, "number of rays per vertex and pose")

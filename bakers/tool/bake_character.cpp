@@ -152,7 +152,9 @@ PreparedBake prepare(const Options& options) {
 
 void run(const Options& options) {
   if (!options.model.empty() && options.calibration.empty())
-    throw ToolError(exit_bad_arguments, "--model needs --calibrate POSES, the poses to fit its constants to");
+    throw ToolError(
+        exit_bad_arguments,
+        "--model needs --calibrate POSES, a file of recorded poses that its constants are fitted to");
   const CommandFiles files{{{"the input", options.input},
                             {"--model", options.model},
                             {"--calibrate", options.calibration},
@@ -180,32 +182,34 @@ void add_choice(Command command, const char* name, std::int32_t& value, const Na
 // Adds the options for the form of the model and for the fit.
 void add_form_options(Command command, Options& o) {
   add_choice(command, "--form", o.form, {{"default", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "method of the bake: default, or paper, which uses the kernel, the fit and the gamma of 2 of Le "
-             "et al. 2019");
+             "method of the bake: default (Nook's own), or paper, which is the method of Le et al. 2019: "
+             "--kernel paper, --fit paper and --gamma 2");
   add_choice(command, "--kernel", o.kernel, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "for comparisons: paper selects the kernel of the paper, and does not change the fit");
+             "for comparisons: how the shadow of a sphere is computed. paper uses the kernel of Le et al. "
+             "2019 with Nook's fit; default nook");
   add_choice(command, "--fit", o.fit, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
-             "for comparisons: paper selects the fit of the paper (block coordinate descent with L-BFGS), "
-             "and does not change the kernel");
+             "for comparisons: how the model is fitted. paper uses the fit of Le et al. 2019 (block "
+             "coordinate descent with L-BFGS) with Nook's kernel; default nook");
   command
       .add_option_function(
           "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },
-          "exponent of the shadow norm, 1 to 8, or learned, which tries several values in short fits and "
-          "keeps the best; default 1, or 2 with --form paper")
+          "exponent of the norm that sums the shadows of the spheres, 1 to 8. learned tries several "
+          "exponents in short fits and keeps the best. Default: 1, or 2 with --form paper")
       .type_name("G|learned")
       .check(in_range(1.0, 8.0) | one_of({"learned"}));
   command
       .add_option("--saturation", o.saturation,
-                  "saturation of the key points at the start of the fit, which then adjusts it; 0 means no "
-                  "saturation; default 0.5, or 0 with --form paper, --fit paper or a --gamma other than 1")
+                  "initial saturation of each key point, which limits the darkness where many spheres "
+                  "overlap; the fit then adjusts it. 0 turns saturation off. Default: 0.5, or 0 with --form "
+                  "paper, --fit paper or a --gamma other than 1")
       .check(in_range(0.0, 64.0));
 }
 
 }  // namespace
 
 void add_bake_character(Command bake) {
-  const Command command =
-      bake.add_subcommand("character", "bake a rigged character for dynamic ambient occlusion");
+  const Command command = bake.add_subcommand(
+      "character", "bake the ambient occlusion (AO) model of a rigged character, for any pose");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("input", o.input, "the rigged character, a .glb or .gltf file").required();
@@ -215,48 +219,75 @@ void add_bake_character(Command bake) {
              {{"draft", NOOK_BAKE_PRESET_DRAFT},
               {"standard", NOOK_BAKE_PRESET_STANDARD},
               {"production", NOOK_BAKE_PRESET_PRODUCTION}},
-             "time to spend: draft (a minute), standard (up to 5 minutes, default) or production (up to "
-             "half an hour)");
-  add_choice(command, "--poses", o.poses,
-             {{"auto", NOOK_BAKE_POSES_AUTO},
-              {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},
-              {"clips", NOOK_BAKE_POSES_CLIPS},
-              {"all", NOOK_BAKE_POSES_ALL}},
-             "poses to which the model is fitted: auto (generated poses), single-joint (each joint alone on "
-             "a grid of rotations), clips (the file's clips), or all (auto and clips, default)");
-  command.add_option("--clips", o.clips, "fit only these clips of the file, separated by commas")
+             "time and quality of the bake: draft (about a minute), standard (default, up to 5 minutes) or "
+             "production (up to half an hour)");
+  add_choice(
+      command, "--poses", o.poses,
+      {{"auto", NOOK_BAKE_POSES_AUTO},
+       {"single-joint", NOOK_BAKE_POSES_SINGLE_JOINT},
+       {"clips", NOOK_BAKE_POSES_CLIPS},
+       {"all", NOOK_BAKE_POSES_ALL}},
+      "poses that the model is fitted to: auto (generated poses), clips (poses of the file's clips), all "
+      "(default: both), or single-joint (poses in which one joint at a time turns, on a grid of rotations)");
+  command
+      .add_option("--clips", o.clips,
+                  "fit only these clips of the file; separate their names by commas. Default: see --split")
       .delimiter(',');
   add_choice(
       command, "--split", o.split,
       {{"all", NOOK_BAKE_SPLIT_ALL}, {"half", NOOK_BAKE_SPLIT_HALF}, {"families", NOOK_BAKE_SPLIT_FAMILIES}},
-      "which clips to fit when --clips is not given: all (default), half or families. half fits every second "
-      "clip, in the byte order of the names, so that `evaluate` can measure the other clips. families is "
-      "like half, but keeps clips together whose names begin with the same word, such as Jump_Start and "
-      "Jump_Land; it ignores a prefix that all names share. T-poses and A-poses are never fitted");
+      "which clips to fit if you do not give --clips: all (default), half or families. half fits every "
+      "second clip, in the byte order of the names, so that `nook evaluate character` can measure the "
+      "others. families fits every second family of clips. The clips of a family have names that begin with "
+      "the same word, such as Jump_Start and Jump_Land; a prefix that all names share does not count. "
+      "T-poses and A-poses are never fitted");
   command.add_input(
       "--rig", o.rig,
-      "rig file that corrects the roles, limbs and parents of bones (see Rigs in docs/character.md); `nook "
-      "inspect FILE --rig` shows what the bake detects without this file");
-  command.add_option("--spheres", o.spheres, "largest number of proxy spheres").check(in_range(1, 1024));
-  command.add_option("--key-points", o.key_points, "largest number of key points").check(in_range(1, 4096));
-  command.add_option("--rays", o.rays, "number of rays per vertex and pose").check(in_range(1, 65536));
-  command.add_option("--auto-poses", o.auto_poses, "number of generated poses").check(in_range(1, 1000000));
-  command.add_option("--samples-per-clip", o.samples_per_clip, "number of poses from each clip")
+      "read this rig file, which corrects the roles, limbs and parents that the bake detects for bones (see "
+      "Rigs in docs/character.md). `nook inspect FILE --rig` shows what the bake detects");
+  command
+      .add_option("--spheres", o.spheres,
+                  "largest number of proxy spheres, which ride on bones and cast the shadows. Default: 130, "
+                  "or 100 with --preset production; fewer for meshes with less than about 1,000 vertices")
+      .check(in_range(1, 1024));
+  command
+      .add_option("--key-points", o.key_points,
+                  "largest number of key points, the places near the skin where shadows are summed. Default: "
+                  "500, or 800 with --preset production; fewer for small meshes")
+      .check(in_range(1, 4096));
+  command
+      .add_option("--rays", o.rays,
+                  "number of rays per vertex and pose. Default: 16, or 32 with --preset production, or 64 "
+                  "with --model")
+      .check(in_range(1, 65536));
+  command
+      .add_option("--auto-poses", o.auto_poses,
+                  "number of generated poses. Default: 300 (--preset draft), 2700 (standard) or 10000 "
+                  "(production). With --poses all, the poses of clips replace up to half of them")
+      .check(in_range(1, 1000000));
+  command
+      .add_option("--samples-per-clip", o.samples_per_clip,
+                  "number of poses to take from each clip. By default, all clips together give about 200 "
+                  "poses (--preset draft), 1100 (standard) or 4000 (production), but each clip at least 4 "
+                  "and at most 64 (production: 256)")
       .check(in_range(1, 1000000));
   command
       .add_option("--steps", o.steps,
-                  "number of optimisation steps of the fit; with --fit paper, number of rounds")
+                  "number of optimisation steps of the fit. Default: 1500 (--preset draft), 20000 (standard) "
+                  "or 60000 (production). With --fit paper, the number of rounds: 3, 20 or 100")
       .check(in_range(1, 10000000));
   add_form_options(command, o);
   command.add_input("--calibrate", o.calibration,
-                    "poses recorded from your game with nook_scene_record_pose; as the last step, the bake "
-                    "fits the constant and the scale of each vertex to them");
-  command.add_input("--model", o.model,
-                    "with --calibrate: take this baked model of the character and fit only its constants and "
-                    "scales; of the other options, only --rays and --seed have an effect");
+                    "file of poses that your game recorded with nook_scene_record_pose. As its last step, "
+                    "the bake fits the constant and the scale of each vertex to these poses");
+  command.add_input(
+      "--model", o.model,
+      "with --calibrate: do not bake a new model, but fit the constants and scales of this baked model of "
+      "the character. Of the options for the fit, only --rays and --seed then have an effect");
   command
       .add_option("--time-limit", o.time_limit_s,
-                  "end the fit after this many seconds; two bakes with this option can differ slightly")
+                  "stop the fit after this many seconds. Two bakes with this option can differ slightly. "
+                  "Default: no limit")
       .check(positive_number());
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -69,8 +69,8 @@ void run(Options o) {
 void add_bake_clips(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "clips",
-      "bake ray-traced AO and the poses of a character's clips.\nThe result is a small file with one entry "
-      "per frame. With this file, a crowd that is drawn from baked animation needs no bones on the CPU.");
+      "bake a character's clips: their poses and their ray-traced AO.\nThe result is a small file with one "
+      "entry per frame. A crowd that is drawn from this file needs no bones on the CPU.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("input", o.input, "the character, a .glb or .gltf file").required();
@@ -78,29 +78,33 @@ void add_bake_clips(Command bake_command) {
   add_bake_options(command, o.baking);
   command
       .add_option("--clips", o.task.clips,
-                  "bake only these clips, separated by commas; default: all but T-poses and A-poses")
+                  "bake only these clips; separate their names by commas. Default: all clips except T-poses "
+                  "and A-poses")
       .delimiter(',');
   command
       .add_option("--frames-per-second", o.task.frames_per_second,
-                  "number of baked frames per second of a clip")
+                  "number of frames to bake per second of a clip")
       .check(in_range(0.1, 1000.0))
       .capture_default_str();
   command.add_option("--rays", o.task.rays, "number of rays per vertex and frame")
       .check(in_range(1, 65536))
       .capture_default_str();
   command
-      .add_option(
-          "--max-error", o.task.tables.max_error,
-          "largest root mean square error of AO; the bake stores as many AO modes as this error needs")
+      .add_option("--max-error", o.task.tables.max_error,
+                  "largest root mean square error of AO, on a scale from 0 to 1. The bake stores as many AO "
+                  "modes as are needed to stay below it")
       .check(in_range(1e-4, 1.0))
       .capture_default_str();
   command
-      .add_option(
-          "--max-bytes", o.task.tables.max_bytes,
-          "largest size of the file in bytes per frame and vertex; modes that would exceed it are left out")
+      .add_option("--max-bytes", o.task.tables.max_bytes,
+                  "largest size of the file, in bytes per frame and vertex. The bake leaves out AO modes "
+                  "that would exceed it, even if the error is then above --max-error")
       .check(in_range(1e-4, 100.0))
       .capture_default_str();
-  command.add_option("--max-modes", o.task.tables.max_modes, "largest number of AO modes, a multiple of 4")
+  command
+      .add_option("--max-modes", o.task.tables.max_modes,
+                  "largest number of AO modes, a multiple of 4. A mode is one of the AO patterns over the "
+                  "body that are mixed for each frame")
       .check(in_range(4u, ClipSet::max_ao_modes))
       .capture_default_str();
   add_import_options(command, o.reading);

@@ -48,23 +48,26 @@ void run(Options o) {
 }  // namespace
 
 void add_bake_lod(Command bake_command) {
-  const Command command =
-      bake_command.add_subcommand("lod",
-                                  "bake another mesh of a baked character, such as a level of detail.\nThe "
-                                  "new model keeps the spheres, key points and casters of the character. The "
-                                  "bake fits only the vertices of the new mesh, which takes seconds.");
+  const Command command = bake_command.add_subcommand(
+      "lod",
+      "bake another mesh of a baked character, such as a simplified copy (level of detail).\nThe new model "
+      "keeps the spheres, key points and casters of the character's model. The bake fits only the vertices "
+      "of the new mesh, which takes seconds.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("model", o.model, "the model that was baked from the full mesh, a .nook file").required();
   command.add_input("mesh", o.input, "the other mesh, a .glb or .gltf file with the same skeleton")
       .required();
   add_bake_options(command, o.baking);
-  command.add_option("--auto-poses", o.task.auto_poses, "number of generated poses to fit")
+  command
+      .add_option("--auto-poses", o.task.auto_poses,
+                  "number of generated poses that the vertices are fitted to")
       .check(in_range(8, 100000))
       .capture_default_str();
   command
       .add_option("--samples-per-clip", o.task.samples_per_clip,
-                  "number of poses to fit from each clip in the file of the mesh")
+                  "number of poses to take from each clip in the file of the mesh; the vertices are fitted "
+                  "to them too")
       .check(in_range(1, 100000))
       .capture_default_str();
   command.add_option("--rays", o.task.rays, "number of rays per vertex and pose")

@@ -319,7 +319,8 @@ RawMaterial expected_sizes(const Options& o) {
 
 void run(Options& o) {
   if (int(!o.meso.empty()) + int(!o.pbr.empty()) + int(!o.btf.empty()) + int(!o.raw.empty()) != 1)
-    throw ToolError(exit_bad_arguments, "bake material: one of --meso, --pbr, --btf and --raw is needed");
+    throw ToolError(exit_bad_arguments,
+                    "bake material: give exactly one source: --meso, --pbr, --btf or --raw");
   if (o.compression.settings.relief == ReliefSource::known && o.relief.empty() && !is_traced(o))
     throw ToolError(exit_bad_arguments,
                     "bake material: --relief known needs --meso or --pbr, whose heights are known; for --btf "
@@ -353,80 +354,91 @@ void run(Options& o) {
 void add_bake_material(Command bake) {
   const Command command =
       bake.add_subcommand("material",
-                          "compress a material with depth for real-time decoding.\nThe source is a "
-                          "meso-structure, a folder of material maps, or a measured BTF.");
+                          "compress a material with depth, such as a fabric, so that a shader can decode it "
+                          "in real time.\nGive one source: --meso, --pbr, --btf or --raw.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   std::string names;
   for (const std::string_view name : meso_names()) names.append(names.empty() ? "" : ", ").append(name);
   command
       .add_input("--meso", o.meso,
-                 "source: a small-scale surface structure (meso-structure) to ray trace, one of " + names +
-                     ", or a closed mesh of one tile, y up, in a .glb or .gltf file")
+                 "source: a structure to ray trace, such as threads or holes (meso-structure). Give the name "
+                 "of a built-in structure (" +
+                     names + "), or a .glb or .gltf file with a closed mesh of one tile, y up")
       .type_name("NAME|TILE.glb");
   command.add_input("--pbr", o.pbr,
-                    "source: a folder with the maps of a physically based material to ray trace; base "
-                    "colour, normal, roughness or gloss, metalness and height are recognised by their names");
+                    "source: a folder with the maps of a physically based material, whose heights are ray "
+                    "traced. The names of the files must tell which map is the base colour, normal, "
+                    "roughness or gloss, metalness and height");
   command
       .add_option("--height-scale", o.height_scale_m,
-                  "for --pbr and an image in --relief: height in metres that the value 1 of the height map "
-                  "stands for; give 1 if the values are metres")
+                  "for the height map of --pbr or the image of --relief: height in metres of the value 1. "
+                  "Give 1 if the values are in metres")
       .check(non_negative_number())
       .capture_default_str();
   command
       .add_option(
           "--tile-size", o.tile_side_m,
-          "side of one tile in metres, for a mesh in --meso, the maps of --pbr and an image in --relief")
+          "side of one tile in metres, for the mesh of --meso, the maps of --pbr or the image of --relief")
       .check(positive_number())
       .capture_default_str();
   add_import_options(command, o.reading);
   command.add_input("--btf", o.btf,
-                    "source: a measured BTF; a folder of images with tl, pl, tv and pv in their names (UBO "
-                    "2003, UTIA), or a .btf file (UBO 2014)");
+                    "source: a measured BTF (images for many views and lights). Give a folder of images with "
+                    "tl, pl, tv and pv in their names (UBO 2003, UTIA), or a .btf file (UBO 2014)");
   command
       .add_option_function(
           "--btf-colours",
           [&o](const std::string& v) { o.colours = v == "xyz" ? FloatColours::xyz : FloatColours::rgb; },
-          "colour space of float images in --btf: rgb (linear, default), or xyz under D65 (UTIA)")
+          "colour space of the images of --btf that have float values: rgb (default, linear), or xyz under "
+          "D65 (UTIA)")
       .check(one_of({"rgb", "xyz"}))
       .type_name("NAME");
-  command.add_input("--raw", o.raw, "source: a raw material that --keep-raw wrote");
+  command.add_input("--raw", o.raw,
+                    "source: an uncompressed material, which --keep-raw of an earlier bake wrote");
   add_bake_options(command, o.baking);
-  command.add_flag("--strict", o.strict,
-                   "if the quality is bad, fail with exit code 4 and write nothing; bad means a "
-                   "signal-to-error ratio below 12 dB in views and lights that were held out");
-  command.add_option("--keep-raw", o.keep_raw,
-                     "also write the uncompressed material to this file, for `evaluate material`");
+  command.add_flag(
+      "--strict", o.strict,
+      "if the quality is bad, fail with exit code 4 and do not write the .nook file. The quality is bad if "
+      "the signal-to-error ratio is below 12 dB in the views and lights that the fit does not see");
+  command.add_option(
+      "--keep-raw", o.keep_raw,
+      "also write the uncompressed material to this file; `nook evaluate material` and --raw read it");
   command.add_option("--images", o.images,
-                     "write pictures of the raw and the decoded material into this folder");
+                     "write PNG files into this folder: the uncompressed material, the decoded material and "
+                     "their difference");
   command
       .add_option("--directions", o.directions,
-                  "for --meso and --pbr: number of view directions, and of light directions without --lights")
+                  "for --meso and --pbr: number of view directions to trace. Without --lights, also the "
+                  "number of light directions")
       .check(in_range(4, 1024))
       .capture_default_str();
   command
-      .add_option(
-          "--lights", o.lights,
-          "for --meso and --pbr: number of light directions; default: the same directions as the views")
+      .add_option("--lights", o.lights,
+                  "for --meso and --pbr: number of light directions to trace. Default: the light directions "
+                  "are the view directions")
       .check(in_range(4, 1024));
   command
-      .add_option("--max-tilt", o.max_tilt_deg,
-                  "for --meso and --pbr: largest angle between a direction and the normal, in degrees")
+      .add_option(
+          "--max-tilt", o.max_tilt_deg,
+          "for --meso and --pbr: largest angle in degrees between the normal and a view or light direction")
       .check(in_range(10.0, 80.0))
       .capture_default_str();
   command
       .add_option(
           "--texels", o.texels,
-          "number of texels along a side. With --meso and --pbr: the resolution, default 96. With --btf: the "
-          "size of a square that is cut from the middle of the images, default the whole images")
+          "number of texels along a side of the material. Default: 96 for --meso and --pbr. With --btf, a "
+          "square of this size is cut from the middle of the images; default: the whole images")
       .check(in_range(1, 1024));
   command
       .add_option("--samples", o.trace.samples,
-                  "for --meso and --pbr: number of view rays along the side of a texel, so that each texel "
-                  "takes the square of this number")
+                  "for --meso and --pbr: number of view rays along each side of a texel. A texel takes the "
+                  "square of this number, for each view")
       .check(in_range(1, 16))
       .capture_default_str();
-  command.add_option("--bounces", o.trace.bounces, "for --meso and --pbr: number of diffuse bounces of light")
+  command
+      .add_option("--bounces", o.trace.bounces,
+                  "for --meso and --pbr: number of diffuse bounces of light to trace")
       .check(in_range(0, 16))
       .capture_default_str();
   command
@@ -436,19 +448,23 @@ void add_bake_material(Command bake) {
       .capture_default_str();
   command
       .add_option("--count", o.count,
-                  "for --meso: number of fibres, of holes along a side, or of yarns along a side")
+                  "for a built-in --meso: number of fibres (fiber, default 10), of holes along a side "
+                  "(roughhole, 2) or of yarns along a side (weave, 4)")
       .check(in_range(1, 1000));
-  command.add_option(
-      "--radius", o.radius,
-      "for --meso: radius of a fibre or a hole, or half the width of a yarn, as a share of the tile's side");
+  command.add_option("--radius", o.radius,
+                     "for a built-in --meso, in tile sides, up to 0.5: radius of a fibre (fiber, default "
+                     "0.04), radius of a hole (roughhole, 0.18) or half the width of a yarn (weave, 0.1)");
   command.add_option("--thickness", o.thickness,
-                     "for --meso: thickness of the mat, the plate or a yarn, as a share of the tile's side");
-  command.add_option("--roughness", o.roughness,
-                     "for --meso: how far fibres wander, how strong the noise is, or how deep the plies of a "
-                     "yarn are, depending on the structure");
+                     "for a built-in --meso, in tile sides, up to 1: thickness of the mat of fibres (fiber, "
+                     "default 0.16), of the plate (roughhole, 0.12) or of a yarn (weave, 0.09)");
+  command.add_option(
+      "--roughness", o.roughness,
+      "for a built-in --meso, 0 to 0.5: how far fibres wander sideways (fiber, default 0.06), how strong the "
+      "noise of the plate is (roughhole, 0.03) or how deep the plies of a yarn are (weave, 0.12)");
   command
-      .add_option("--detail", o.detail,
-                  "for --meso: number of triangles per unit of length, as a multiple of the default")
+      .add_option(
+          "--detail", o.detail,
+          "for a built-in --meso: factor for the number of mesh segments along each length; default 1")
       .check(in_range(0.1, 4.0));
   CompressionSettings& s = o.compression.settings;
   command
@@ -460,17 +476,17 @@ void add_bake_material(Command bake) {
                        : v == "neural" ? Method::neural
                                        : Method::k_cta;
           },
-          "compression: k-cta (default), cta, n-svd or neural. neural trains a small network for minutes and "
-          "suits flat and glossy materials; its visibility is compressed by k-cta")
+          "how to compress: k-cta (default), cta, n-svd or neural. neural trains a small network for "
+          "minutes, which is better for flat and glossy materials; it compresses visibility by k-cta")
       .check(one_of({"k-cta", "cta", "n-svd", "neural"}))
       .type_name("NAME");
   command
       .add_option("--channels", s.neural_channels,
-                  "for --method neural: number of feature channels per texel, a multiple of 4 up to 64; each "
-                  "channel takes half a byte per texel in the file")
+                  "for --method neural: number of feature channels per texel, a multiple of 4. Each channel "
+                  "takes half a byte per texel in the file")
       .check(in_range(4, 64))
       .capture_default_str();
-  command.add_option("--steps", s.neural_steps, "for --method neural: number of training steps")
+  command.add_option("--steps", s.neural_steps, "for --method neural: number of steps to train the network")
       .check(in_range(1, 1000000))
       .capture_default_str();
   command
@@ -481,26 +497,27 @@ void add_bake_material(Command bake) {
                            : v == "binary" ? VisibilityForm::binary
                                            : VisibilityForm::distance;
           },
-          "how to store visibility: distance (default), binary or none")
+          "how to store visibility (which texels a view sees): distance (default, signed distances in texels "
+          "to the border), binary (0 or 1) or none")
       .check(one_of({"distance", "binary", "none"}))
       .type_name("NAME");
   command
       .add_option("--visibility-mapping", o.visibility_mapping,
-                  "threshold T and weight W with which shaders turn stored values into visibility; paper "
-                  "selects 0.5,1 for --votf binary and 0.05,12 for --votf distance; default: 0.5,1 for "
-                  "binary; for distance, T is half a texel and W is 1 / T")
+                  "threshold T and weight W with which shaders turn stored values into visibility. Default: "
+                  "0.5,1 for --votf binary; half a texel and its reciprocal for --votf distance. paper uses "
+                  "the numbers of Tsai and Shih 2012: 0.5,1 for binary and 0.05,12 for distance")
       .type_name("T,W|paper");
   command
-      .add_option(
-          "--view-map", s.map_side,
-          "for --method k-cta: number of cells along a side of the resampled view maps. 0 means no view map: "
-          "then decoding mixes the three nearest views, which costs up to three times as much")
+      .add_option("--view-map", s.map_side,
+                  "for --method k-cta: number of cells along a side of the view maps, which are resampled "
+                  "from the views. With 0, there are no view maps: a shader then mixes the three nearest "
+                  "views, which takes up to three times the work")
       .check(in_range(0, 512))
       .capture_default_str();
   command
       .add_option("--step-penalty", s.step_penalty,
-                  "penalty on differences between neighbouring cells of the view map; a larger value gives a "
-                  "calmer picture in motion, but a larger error; 10 halves the largest jump")
+                  "penalty on differences between neighbouring cells of the view map. A larger value gives "
+                  "less flicker when the view turns, but a larger error; 10 halves the largest jump")
       .check(in_range(0.0, 1000.0))
       .capture_default_str();
   command
@@ -512,10 +529,10 @@ void add_bake_material(Command bake) {
                                           : ReliefSource::known;
             o.relief = s.relief == ReliefSource::known && v != "known" ? v : "";
           },
-          "heights through which shaders march rays, so that views between the stored views are sharper: "
-          "none (default), estimated, known, or an image of heights, scaled as with --pbr. known takes the "
-          "heights of --meso or --pbr. estimated finds heights on which the views agree, and stores no "
-          "heights if they do not improve the prediction of any view")
+          "store heights, through which shaders march rays to make views between the stored views sharper. "
+          "none (default) stores no heights. known stores the heights of --meso or --pbr. estimated finds "
+          "the heights on which the views agree, and stores them only if they improve the prediction of "
+          "views. IMAGE is a picture of heights, scaled by --height-scale and --tile-size")
       .type_name("none|estimated|known|IMAGE");
   command.reads(o.relief);
   add_compression_options(command, o.compression);

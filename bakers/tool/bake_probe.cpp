@@ -17,7 +17,7 @@ void run(const BakeProbeOptions& options) {
   const bool is_grid = options.grid[0] > 0;
   if (is_grid != !options.light.empty())
     throw ToolError(exit_bad_arguments,
-                    "bake probe: a scene needs both --grid and --light, a map needs neither");
+                    "bake probe: give both --grid and --light for a scene, or neither of them for a map");
   if (options.walls && (!is_grid || options.probe.basis != "harmonics" || options.probe.order != 2 ||
                         options.probe.hemisphere))
     throw ToolError(exit_bad_arguments,
@@ -40,70 +40,80 @@ void run(const BakeProbeOptions& options) {
 void add_bake_probe(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "probe",
-      "bake a light probe from an environment map, or a grid of light probes in a scene.\nEach probe stores "
-      "light as a few spherical Gaussians. A scene is path traced.");
+      "bake a light probe from an environment map, or a grid of light probes in a scene.\nA probe stores the "
+      "light from all directions at a place, by default as a few spherical Gaussians. For a grid, the light "
+      "in the scene is path traced.");
   const auto options = std::make_shared<BakeProbeOptions>();
   BakeProbeOptions& o = *options;
-  command.add_input("input", o.input, "a latitude-longitude map (.hdr or .exr), or a scene (.glb or .gltf)")
+  command
+      .add_input("input", o.input,
+                 "a latitude-longitude map (.hdr or .exr) for one probe, or a scene (.glb or .gltf) for a "
+                 "grid of probes")
       .required();
   add_bake_options(command, o.baking);
   add_probe_options(command, o.probe);
   command
       .add_option(
           "--sampling", o.sampling,
-          "for a map: how to choose samples. texels takes each texel once, luminance and uniform draw texels "
-          "at random; automatic is texels if --method solves for all samples at once, otherwise luminance")
+          "for a map: how to choose the directions in which the map is read. texels takes each texel once. "
+          "uniform draws random directions, and luminance draws half of them where the map is bright. "
+          "automatic takes luminance if --method is a running average, and texels for the other methods")
       .check(one_of({"automatic", "texels", "luminance", "uniform"}))
       .capture_default_str();
   command
       .add_option("--samples", o.samples,
-                  "for a map: number of samples to draw, default 1048576; for a scene: largest number of "
-                  "samples per probe, default 65536")
+                  "for a map: number of random directions to draw; default 1048576. For a scene: largest "
+                  "number of paths to trace from each probe; default 65536")
       .check(in_range(64u, 1u << 30));
   command.add_option("--picture", o.picture,
-                     "for a map: write one .png that shows the map, the radiance and irradiance of the "
+                     "for a map: write a .png file that shows the map, the radiance and irradiance of the "
                      "probe, and the error");
   command
       .add_option_function(
           "--grid", [&o](const std::string& text) { o.grid = parse_grid_counts(text); },
-          "for a scene: number of probes along x, y and z")
+          "for a scene (required): number of probes along x, y and z, such as 8x4x8")
       .type_name("AxBxC");
-  command.add_input("--light", o.light, "for a scene: the environment map around it");
+  command.add_input("--light", o.light,
+                    "for a scene (required): the environment map that lights it, a .hdr or .exr file");
   command
       .add_option_function(
           "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },
-          "for a scene: the box that the grid fills, as x0,y0,z0,x1,y1,z1 in metres; default the whole scene")
+          "for a scene: low and high corner of the box that the grid fills, as x0,y0,z0,x1,y1,z1 in metres. "
+          "Default: the box around the scene")
       .type_name("BOX");
   command
       .add_option("--error", o.error,
-                  "for a scene: stop when the statistical error falls below this share of the light")
+                  "for a scene: stop when the statistical error, divided by the light, is below this number")
       .check(in_range(0.0, 1.0))
       .capture_default_str();
   command
-      .add_option("--preview-every", o.preview_every_s,
-                  "for a scene: write a preview to the output file each time this many seconds have passed")
+      .add_option(
+          "--preview-every", o.preview_every_s,
+          "for a scene: write a preview to the output file every so many seconds. Default: no preview")
       .check(in_range(0.0, 1e9));
   command.add_option("--max-bounces", o.max_bounces,
-                     "for a scene: largest number of bounces; default unlimited");
+                     "for a scene: largest number of bounces of a light path. Default: no limit");
   command
-      .add_option(
-          "--direct", o.direct,
-          "for a scene: which direct light of the map the probes store: none, the sky without suns, or all. "
-          "Bounced light is always stored. The report lists the suns that your engine then has to draw")
+      .add_option("--direct", o.direct,
+                  "for a scene: direct light of the map that the probes store: none, sky (the map without "
+                  "its suns) or all. The probes always store bounced light. The report lists the suns that "
+                  "your engine has to draw itself")
       .check(one_of(bake::direct_names()))
       .capture_default_str();
   command.add_flag("--walls", o.walls,
-                   "for a scene: move probes out of solids, learn which probes lie on which side of a wall, "
-                   "and fit the probes to the light on surfaces; needs --basis harmonics --order 2");
+                   "for a scene: prevent light from leaking through walls. The bake moves probes out of "
+                   "solid objects, finds the probes on either side of each wall, and fits the probes to the "
+                   "light on surfaces. Needs --basis harmonics --order 2");
   command
       .add_option("--training-paths", o.training_paths,
-                  "with --walls: number of paths to trace from each point on surfaces to which walls and "
-                  "probes are fitted")
+                  "with --walls: number of paths to trace from each point on a surface that walls and probes "
+                  "are fitted to")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
   add_import_options(command, o.reading);
   command.add_flag("--no-textures", o.no_textures,
-                   "for a scene: use colour factors in place of textures, and treat alpha masks as solid");
+                   "for a scene: do not read textures; use the colour factors of materials instead, and "
+                   "treat surfaces with alpha masks as solid");
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

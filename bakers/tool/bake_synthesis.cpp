@@ -70,34 +70,43 @@ void add_bake_synthesis(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "synthesis",
       "spread a material over a plane without visible repeats.\nThe result is a texture of coordinates. For "
-      "each texel of the plane, it stores which texel of the material to show.");
+      "each texel of the plane, it stores the texel of the material to show there.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
-      .add_input("input", o.input,
-                 "the material: a .nook file of `bake material`, or a file that --keep-raw wrote")
+      .add_input(
+          "input", o.input,
+          "the material: a .nook file that `nook bake material` wrote, or the file of its option --keep-raw")
       .required();
   add_bake_options(command, o.baking);
   command
       .add_option("--size", o.settings.side,
-                  "number of texels along a side of the plane, a multiple of 64; the plane repeats after "
+                  "number of texels along a side of the plane, a multiple of 64. The plane repeats after "
                   "this many texels")
       .check(in_range(bake::synthesis::side_step, nook::synthesis::max_side))
       .capture_default_str();
   command.add_flag("!--no-tile", o.is_tiling,
-                   "say that the material has visible seams at its borders, as measured materials have");
-  command.add_option("--crop", o.crop, "the part of the material to use, in texels: X Y WIDTH HEIGHT")
+                   "give this if the material does not tile: it has a visible seam where its borders meet, "
+                   "as measured materials have");
+  command
+      .add_option(
+          "--crop", o.crop,
+          "use only this part of the material, as X Y WIDTH HEIGHT in texels. Default: the whole material")
       .expected(4);
   command
       .add_option("--jitter", o.settings.jitter,
-                  "strength of random movement, 0 to 1; more movement gives fewer repeats and more seams")
+                  "how far parts of the material move at random, 0 to 1. More movement gives fewer repeats, "
+                  "but more seams")
       .check(in_range(0.0f, 1.0f))
       .capture_default_str();
-  command.add_option("--passes", o.settings.passes, "number of correction passes at each level")
+  command
+      .add_option("--passes", o.settings.passes,
+                  "number of correction passes at each level, from coarse to fine")
       .check(in_range(1u, 16u))
       .capture_default_str();
   command.add_option("--images", o.images,
-                     "write pictures of the plane with and without the coordinates into this folder");
+                     "for a .nook material: write a PNG file into this folder that shows the plane with and "
+                     "without the coordinates");
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

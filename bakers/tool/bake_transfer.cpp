@@ -83,54 +83,58 @@ void add_bake_transfer(Command bake_command) {
   const Command command = bake_command.add_subcommand(
       "transfer",
       "bake how much light from each direction reaches a static shape (radiance transfer).\nAt run time, you "
-      "can then light the shape with any light, including the shadows that the shape casts on itself.");
+      "can then light the shape with any environment map. The shadows that the shape casts on itself are "
+      "included.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("input", o.input, "the shape, a .glb or .gltf file with texture coordinates").required();
   add_bake_options(command, o.baking);
   command
       .add_option("--lobes", o.settings.lobes,
-                  "number of lobes that represent the light; each takes a byte per vertex in the file")
+                  "number of lobes that represent the light. Each takes a byte per vertex in the file")
       .check(in_range(transfer::min_lobes, transfer::max_lobes))
       .capture_default_str();
   command
       .add_option("--ray-side", o.settings.side,
-                  "number of rays along a side of the cube around each vertex; a vertex takes 6 times the "
-                  "square of this number")
+                  "number of rays along each edge of the cube of directions around a vertex. A vertex takes "
+                  "6 times the square of this number")
       .check(in_range(8u, bake::transfer::max_ray_side))
       .capture_default_str();
   command
       .add_option("--bounces", o.settings.bounces,
-                  "number of bounces of light between parts of the shape; each bounce adds 18 bytes per "
+                  "number of bounces of light between parts of the shape. Each bounce adds 18 bytes per "
                   "vertex to the file")
       .check(in_range(0u, transfer::max_bounces))
       .capture_default_str();
   command.add_input("--votf", o.votf,
-                    "the .nook file of the material on the shape; with this option, light falls through the "
-                    "holes of the material");
+                    "let light fall through the holes of the material on the shape. Give the .nook file of "
+                    "the material. Default: no holes");
   command
       .add_option("--tiles", o.settings.tiles,
-                  "number of tiles of the --votf material per unit of texture coordinates")
+                  "number of tiles of the material in --votf per unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();
   command
       .add_option("--form", o.form,
-                  "form of the result: separated works with any material; paper stores matrices for the one "
-                  "material of --material, compressed by CTA")
+                  "form of the result: separated works with any material. paper (Tsai and Shih 2012) works "
+                  "only with the material in --material, and stores matrices that are compressed by CTA")
       .check(one_of({"separated", "paper"}))
       .capture_default_str();
-  command.add_input("--material", o.material, "for --form paper: the .nook file of the material");
+  command.add_input("--material", o.material,
+                    "for --form paper (required): the .nook file of the material on the shape");
   command
       .add_option("--clusters", o.paper.clusters,
-                  "for --form paper: number of vertex clusters; 0 means one per 360 vertices")
+                  "for --form paper: number of clusters of vertices; 0 means one cluster per 360 vertices")
       .check(in_range(0u, transfer::max_clusters))
       .capture_default_str();
-  command.add_option("--lobe-rank", o.paper.lobe_rank, "for --form paper: number of lobe modes per cluster")
+  command
+      .add_option("--lobe-rank", o.paper.lobe_rank,
+                  "for --form paper: number of modes (components) that a cluster keeps for lobes")
       .check(in_range(1u, transfer::max_lobe_rank))
       .capture_default_str();
   command
       .add_option("--vertex-rank", o.paper.vertex_rank,
-                  "for --form paper: number of vertex modes per cluster")
+                  "for --form paper: number of modes (components) that a cluster keeps for vertices")
       .check(in_range(1u, transfer::max_vertex_rank))
       .capture_default_str();
   add_import_options(command, o.reading);

@@ -95,21 +95,22 @@ std::string rule_of(const BakeCommand& command) {
 
 void add_bake_options(Command command, BakeOptions& options) {
   options.survey = command.survey();
-  command.add_option("-o,--output", options.output, "the .nook file to write");
+  command.add_option("-o,--output", options.output, "write the result to this .nook file");
   command.add_flag("--print-key", options.prints_key,
-                   "do not bake: only read the inputs, and print the key of the bake. Equal keys mean equal "
-                   "results (docs/guide/pipeline.md)");
+                   "print the key of the bake instead of baking. The key is a hash of all inputs and "
+                   "settings that affect the result: equal keys mean equal results (docs/guide/pipeline.md)");
   command.add_option(
       "--depfile", options.depfile,
-      "write a rule for Make and Ninja to this file; the rule names all files that the bake reads");
+      "write a rule for Make and Ninja to this file; the rule lists all files that the bake reads");
   command.add_option("--cache", options.cache,
-                     "folder that stores results by their keys. If the folder contains the result, it is "
-                     "copied instead of baked; default: the environment variable NOOK_CACHE, if set");
+                     "keep results in this folder, each under its key (--print-key). If the folder already "
+                     "contains the result, the command copies it instead of baking. Default: the folder in "
+                     "the environment variable NOOK_CACHE; no cache if it is not set");
   command
-      .add_option(
-          "--isa", options.isa,
-          "instruction set to bake with: x86-64-v2, x86-64-v3, or native, the best that this processor has "
-          "(default). With a fixed set, old and new processors of one maker give the same bytes")
+      .add_option("--isa", options.isa,
+                  "processor instruction set of the bake: x86-64-v2, x86-64-v3 or native. native (default) "
+                  "is the best set that this processor has. With x86-64-v2 or x86-64-v3, old and new "
+                  "processors of one maker write the same bytes")
       .check(one_of({"native", "x86-64-v2", "x86-64-v3"}));
 }
 

@@ -99,7 +99,7 @@ class NinjaOutput {
 std::array<int, 2> make_pipe() {
   std::array<int, 2> ends{};
   if (pipe2(ends.data(), O_CLOEXEC) != 0)
-    throw ToolError(exit_other, std::string("build: no pipe can be made (") + std::strerror(errno) +
+    throw ToolError(exit_other, std::string("build: cannot make a pipe to Ninja (") + std::strerror(errno) +
                                     "); end other programs");
   return ends;
 }
@@ -149,13 +149,13 @@ void run(const Options& options) {
 void add_build(Command tool) {
   const Command command = tool.add_subcommand(
       "build",
-      "bake the assets of a project that have changed.\nThis command makes a plan like nook plan, and runs "
-      "the plan with Ninja. If a bake fails, the other bakes still run, and the exit code is 1.");
+      "bake the assets of a project that have changed.\nThis command makes the same plan as `nook plan`, and "
+      "runs its bakes with Ninja. If a bake fails, the other bakes still run, and the exit code is 1.");
   const auto options = std::make_shared<Options>();
   plan::add_plan_options(command, options->plan);
   command
       .add_option("-j,--jobs", options->jobs,
-                  "number of bakes that run at the same time; 0 means one per core")
+                  "number of bakes that run at the same time; 0 means one bake per core")
       .check(in_range(0, 1024))
       .capture_default_str();
   command.callback([options] { run(*options); });

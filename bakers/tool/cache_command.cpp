@@ -35,18 +35,20 @@ void run(const Options& options) {
 }  // namespace
 
 void add_cache_prune(Command cache) {
-  const Command command =
-      cache.add_subcommand("prune", "remove old results from a cache, or shrink the cache to a given size");
+  const Command command = cache.add_subcommand(
+      "prune",
+      "remove old results from a cache, or shrink the cache to a given size (--older, --size, or both)");
   const auto options = std::make_shared<Options>();
   command.add_option("--cache", options->cache,
-                     "folder of the cache; default: the environment variable NOOK_CACHE");
+                     "folder of the cache. Default: the folder in the environment variable NOOK_CACHE");
   command
-      .add_option("--older", options->days, "remove results that were last used more than this many days ago")
+      .add_option("--older", options->days,
+                  "remove the results that no bake has used for more than this many days")
       .check(in_range(0.0, 36500.0));
   command
       .add_option("--size", options->megabytes,
-                  "then remove the results that were unused for longest, until at most this many MB (10^6 "
-                  "bytes) are left")
+                  "remove results until the cache has at most this many MB (10^6 bytes), beginning with the "
+                  "result whose last use is longest ago")
       .check(in_range(0.0, 1e9));
   command.callback([options] { run(*options); });
 }

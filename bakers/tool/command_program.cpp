@@ -113,7 +113,7 @@ std::string memory_advice(CLI::App& program) {
   if (name.ends_with("bake material")) return "; use fewer --directions or --texels";
   if (name.ends_with("bake probe")) return "; use a smaller map, or fewer probes";
   if (name.ends_with("train nnao")) return "; use fewer --scenes, --views or --points";
-  return "; use smaller inputs, or a machine with more";
+  return "; use smaller inputs, or a machine with more memory";
 }
 
 }  // namespace

@@ -37,44 +37,55 @@ void add_compression_options(Command command, CompressionOptions& o) {
   s.bits = default_bits;
   command
       .add_option("--ranks", o.ranks,
-                  "ranks of the BTF for light (L), views (V, in all clusters together) and texels (X, Y); "
-                  "auto chooses them by --threshold. Default: fixed ranks for each built-in material, auto "
-                  "for other materials")
+                  "number of components (rank) that the compressed colours (BTF) keep for light (L), views "
+                  "(V, of all clusters together) and texels (X and Y). Higher ranks give a smaller error and "
+                  "a larger file. auto chooses the ranks by --threshold. Default: fixed ranks for each "
+                  "built-in structure, auto for other materials")
       .type_name("L,V,X,Y|auto");
   command
-      .add_option("--votf-ranks", o.votf_ranks, "ranks of the visibility (VOTF) along the texture's x and y")
+      .add_option(
+          "--votf-ranks", o.votf_ranks,
+          "number of components (rank) that the compressed visibility (VOTF) keeps along the texture's x and "
+          "y. Default: as --ranks chooses them; 80,80 if --ranks has numbers, or fewer for small textures")
       .type_name("X,Y");
   command
       .add_option("--threshold", o.threshold,
-                  "for --ranks auto: largest squared error that each mode may add, as a share of the squared "
-                  "norm of the material")
+                  "for --ranks auto: largest squared error that each of L, V, X and Y may add, divided by "
+                  "the sum of the squared values of the material")
       .check(in_range(1e-6, 0.5))
       .capture_default_str();
-  command.add_option("--cluster-rank", s.cluster_rank_view, "number of view ranks in each cluster")
+  command
+      .add_option("--cluster-rank", s.cluster_rank_view,
+                  "rank of each view cluster: the number of view components that a cluster keeps")
       .check(in_range(1, 64))
       .capture_default_str();
-  command.add_option("--clusters", s.clusters, "number of view clusters; default V / --cluster-rank")
+  command
+      .add_option("--clusters", s.clusters,
+                  "number of view clusters (groups of similar views). Default: V of --ranks divided by "
+                  "--cluster-rank")
       .check(in_range(1, 1024));
-  command.add_option("--mixture", s.mixture, "number of clusters that each view mixes")
+  command
+      .add_option("--mixture", s.mixture, "number of clusters that each view is mixed from (the K of K-CTA)")
       .check(in_range(1, 8))
       .capture_default_str();
   command
       .add_option("--votf-refits", s.votf_refits,
-                  "number of additional fits of the visibility (VOTF), which only move values to the right "
-                  "side of the threshold")
+                  "number of additional fits of the visibility (VOTF). They correct only the values that lie "
+                  "on the wrong side of the threshold between visible and hidden")
       .check(in_range(0, 16))
       .capture_default_str();
   command
       .add_option("--bits", s.bits,
-                  "bits per stored number: 8 (integers in the file and in textures) or 16 (half floats, "
-                  "which take twice the space and gain 0.1 dB)")
+                  "bits of each stored number, in the file and in textures: 8 (integers), or 16 (half "
+                  "floats, twice the size and 0.1 dB better)")
       .check(one_of_numbers({8, 16}))
       .capture_default_str();
   command
       .add_option_function(
           "--seeding",
           [&s](const std::string& v) { s.seeding = v == "values" ? Seeding::values : Seeding::directions; },
-          "how the first clusters are chosen: directions (by view direction, default) or values (by k-means)")
+          "how views are first grouped into clusters: directions (default, by view direction) or values (by "
+          "k-means over their values)")
       .check(one_of({"directions", "values"}))
       .type_name("NAME");
 }
@@ -130,8 +141,8 @@ nook::material::VisibilityMapping visibility_mapping(const std::string& text, Vi
   nook::material::VisibilityMapping mapping;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%f,%f%c", &mapping.threshold, &mapping.weight, &rest) != 2)
-    throw ToolError(exit_bad_arguments,
-                    "--visibility-mapping: got " + text + ", need T,W, such as 0.05,12, or paper");
+    throw ToolError(exit_bad_arguments, "--visibility-mapping: got " + text +
+                                            ", need two numbers T,W, such as 0.05,12, or the word paper");
   return mapping;
 }
 

@@ -82,45 +82,51 @@ Json evaluate(const Options& options) {
 void add_evaluate_bent(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "bent",
-      "measure bent normals and specular occlusion of a character against ray tracing.\nSpecular occlusion "
-      "is measured at five roughness values, under uniform light and under environment maps. It is compared "
-      "with S. Lagarde's formula, which uses the same AO.");
+      "measure the bent normals and the specular occlusion of a character against ray tracing.\nSpecular "
+      "occlusion is the unblocked share of a glossy reflection. It is measured at five roughness values, "
+      "under uniform light and under the maps of --maps. S. Lagarde's formula, from the same AO, is measured "
+      "for comparison.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.most = 24;
   add_evaluated_files(command, o.files);
-  const Option maps =
-      command
-          .add_input("--maps", o.maps,
-                     "latitude-longitude maps that light the glossy body, separated by commas, at most 8")
-          .delimiter(',')
-          .expected(1, int(bake::max_glossy_maps));
-  command.add_option("--clips", o.poses.clips, "measure only these clips, separated by commas")
+  const Option maps = command
+                          .add_input("--maps", o.maps,
+                                     "also measure under these latitude-longitude maps (.hdr or .exr), at "
+                                     "most 8; separate them by commas. Default: only uniform light")
+                          .delimiter(',')
+                          .expected(1, int(bake::max_glossy_maps));
+  command
+      .add_option("--clips", o.poses.clips,
+                  "measure only these clips; separate their names by commas. Default: the clips that the "
+                  "model was not fitted to, or all clips if it was fitted to all")
       .delimiter(',');
-  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses from each clip")
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses to take from each clip")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
+  command
+      .add_option("--max-poses", o.poses.most,
+                  "measure at most this many of these poses, picked at even intervals")
       .check(in_range(1, 10000000))
       .capture_default_str();
-  command.add_option("--points", o.study.points, "number of vertices measured in each pose")
+  command.add_option("--points", o.study.points, "number of vertices to measure in each pose")
       .check(in_range(1, 10000000))
       .capture_default_str();
   command
       .add_option("--rays", o.study.rays,
-                  "number of rays per vertex for AO; a reflection takes a quarter of this number")
+                  "number of rays per vertex for AO. A reflection takes a quarter of this number")
       .check(in_range(8, 65536))
       .capture_default_str();
   command
       .add_option("--images", o.images,
-                  "write PNG files into this folder that show a glossy body under the first map: without "
+                  "write PNG files into this folder that show the body, glossy, under the first map: without "
                   "occlusion, with S. Lagarde's formula, with bent normals, and path traced")
       .needs(maps);
-  command.add_option("--image-count", o.image_count, "number of poses to draw")
+  command.add_option("--image-count", o.image_count, "with --images: number of poses to draw")
       .check(in_range(1, 1000))
       .capture_default_str();
   command
-      .add_option("--image-roughness", o.image_roughness, "perceptual roughness of the body in the pictures")
+      .add_option("--image-roughness", o.image_roughness, "with --images: perceptual roughness of the body")
       .check(in_range(0.01, 1.0))
       .capture_default_str();
   add_common_options(command, o.common);

@@ -80,45 +80,46 @@ Json evaluate(const Options& options) {
 void add_evaluate_casters(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "casters",
-      "measure how a neighbour darkens a body, from 0.3 to 10 m away.\nThis command prints the mean "
-      "darkening by ray tracing and by each form of casters, and the error of each form, over several "
-      "directions and poses.");
+      "measure how much a neighbour darkens a body, against ray tracing.\nThe neighbour is the same "
+      "character. It stands 0.3 to 10 m away (--distances), in several directions and poses. The table shows "
+      "the mean darkening by ray tracing and by each form of casters, and the error of each form.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
-  command.add_option("--rays", o.study.rays, "number of rays per vertex")
+  command.add_option("--rays", o.study.rays, "number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
-  const Option bearings =
-      command.add_option("--bearings", o.study.bearings, "number of directions in which the neighbour stands")
-          .check(in_range(1, 360))
+  const Option bearings = command
+                              .add_option("--bearings", o.study.bearings,
+                                          "number of directions from the body in which the neighbour stands")
+                              .check(in_range(1, 360))
+                              .capture_default_str();
+  const Option poses =
+      command.add_option("--poses", o.poses, "number of poses to measure, spread over the clips")
+          .check(in_range(1, 1000))
           .capture_default_str();
-  const Option poses = command.add_option("--poses", o.poses, "number of poses, spread over the clips")
-                           .check(in_range(1, 1000))
-                           .capture_default_str();
   const Option distances =
       command
           .add_option("--distances", o.study.distances,
-                      "distances between the middles of both bodies along the ground, in metres, separated "
-                      "by commas; vertices inside the neighbour are left out")
+                      "distances along the ground between the middles of both bodies, in metres; separate "
+                      "them by commas. Vertices inside the neighbour are not measured")
           .delimiter(',')
           .check(in_range(0.01, 1000.0))
           .default_str("0.3,0.5,0.75,1,2,3,5,10");
   const Option radii = command.add_flag(
       "--radii", o.study.in_radii,
-      "give --distances as multiples of the bounding radius of the body instead of metres, so that you can "
-      "compare bodies of different size; the radius of a person is about 1 m");
-  const Option contact =
-      command.add_option("--contact", o.contact,
-                         "measure two bodies that darken each other, each in the middle of a clip, instead "
-                         "of --distances. Give the names of both clips, the position of the second body "
-                         "relative to the middle of the first body (x, y and z in metres), and the angle in "
-                         "degrees by which the second body is turned about the vertical axis");
+      "the unit of --distances is the bounding radius of the body instead of metres, so that you can compare "
+      "bodies of different size. The bounding radius of a person is about 1 m");
+  const Option contact = command.add_option(
+      "--contact", o.contact,
+      "instead of --distances, measure two bodies that darken each other, each in the middle of a clip. Give "
+      "the clip of each body, the position X Y Z of the second body relative to the middle of the first one "
+      "in metres, and the angle by which the second body is turned about the vertical axis");
   contact.type_name("CLIP CLIP X Y Z DEGREES");
   for (const Option unused : {bearings, poses, distances, radii}) contact.excludes(unused);
   command.add_option(
       "--images", o.images,
-      "write PNG files into this folder that show both bodies of --contact, or a pair at each distance");
+      "write PNG files into this folder that show both bodies, at each distance or as --contact places them");
   add_common_options(command, o.common);
   command.callback([options] {
     run_evaluation(options->common, {named_files(options->files), {}, options->images},

@@ -109,39 +109,44 @@ void add_evaluate_character(Command evaluate_command) {
 void add_evaluate_character(Command evaluate_command, std::span<const CharacterPeer> peers) {
   const Command command = evaluate_command.add_subcommand(
       "character",
-      "measure a baked character against ray tracing.\nmse is the mean squared error over all vertices and "
-      "poses. mse_visible covers only vertices with a traced AO of 0.01 or more; visible_share is the share "
-      "of these vertices. mse_area weights vertices by area. mse_static is the error if AO is baked once in "
-      "the rest pose. mse_oracle is the error of the best possible static bake.");
+      "measure the AO of a baked character against ray tracing.\nmse is the mean squared error of AO over "
+      "all vertices and poses. mse_visible is the error over the vertices with a traced AO of 0.01 or more; "
+      "visible_share is the share of these vertices. mse_area is the error weighted by the area around each "
+      "vertex. mse_static is the error if AO is baked once, in the rest pose. mse_oracle is the error of the "
+      "best AO that does not depend on the pose.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
   command
       .add_option_function(
           "--poses", [&o](const std::string& name) { o.poses.training = name == "training"; },
-          "which poses to measure: clips (default), or training, the poses that the model was fitted to. "
-          "Without --clips, `clips` measures the clips that the model was not fitted to, or all clips if it "
-          "was fitted to all")
+          "which poses to measure: clips (default, poses of clips) or training (the poses that the model was "
+          "fitted to)")
       .check(one_of({"clips", "training"}))
       .type_name("NAME");
-  command.add_option("--clips", o.poses.clips, "measure only these clips, separated by commas")
+  command
+      .add_option("--clips", o.poses.clips,
+                  "measure only these clips; separate their names by commas. Default: the clips that the "
+                  "model was not fitted to, or all clips if it was fitted to all")
       .delimiter(',');
-  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses from each clip")
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses to take from each clip")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
+  command
+      .add_option("--max-poses", o.poses.most,
+                  "measure at most this many of these poses, picked at even intervals. Default: all")
       .check(in_range(1, 10000000));
   command.add_option("--rays", o.rays, "number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   command.add_flag("--motion", o.is_motion,
-                   "measure motion instead: how much AO changes from frame to frame at 60 Hz, compared with "
-                   "ray tracing, over consecutive frames of each clip. --max-poses limits the frames of all "
-                   "clips together (default 480). share_beyond is the share of vertices and frames whose AO "
-                   "changes by 0.02 more than the ray-traced AO");
+                   "measure motion instead of single poses: how much AO changes from frame to frame at 60 "
+                   "Hz, compared with ray tracing. The frames of a clip are consecutive. --max-poses limits "
+                   "the frames of all clips together; its default is then 480. share_beyond is the share of "
+                   "vertices and frames in which AO changes by 0.02 more than ray-traced AO does");
   command.add_option("--images", o.images,
-                     "write PNG files into this folder that show the error on the body");
-  command.add_option("--image-count", o.image_count, "number of poses to draw")
+                     "write PNG files into this folder that show the error of AO on the body");
+  command.add_option("--image-count", o.image_count, "with --images: number of poses to draw")
       .check(in_range(1, 1000))
       .capture_default_str();
   add_common_options(command, o.common);

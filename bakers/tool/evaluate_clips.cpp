@@ -88,28 +88,32 @@ void add_evaluate_clips(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "clips",
       "measure baked clips against ray tracing.\nErrors are measured at the baked frames, half-way between "
-      "frames, and next to one neighbour in the same clips. They are compared with the errors of the "
-      "character model in the same poses. mse_visible is the mean squared error over vertices with a traced "
-      "AO of 0.01 or more.");
+      "frames, and beside one neighbour that plays the same clips. Each is compared with the error of the "
+      "character's model in the same poses. mse_visible is the mean squared error of AO over the vertices "
+      "with a traced AO of 0.01 or more.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
-  command.add_input("clips", o.clips, "the baked clips, a .nook file").required();
+  command.add_input("clips", o.clips, "the baked clips, a .nook file that `nook bake clips` wrote")
+      .required();
   command.add_option("--rays", o.study.rays, "number of rays per vertex and pose")
       .check(in_range(1, 65536))
       .capture_default_str();
   command
-      .add_option(
-          "--max-poses", o.study.max_poses,
-          "number of poses to measure at the frames, and again half-way between frames, picked evenly")
+      .add_option("--max-poses", o.study.max_poses,
+                  "largest number of poses to measure at the frames, and again half-way between frames, "
+                  "picked at even intervals")
       .check(in_range(1, 10000000))
       .capture_default_str();
-  command.add_option("--pairs", o.study.max_pairs, "number of poses with a neighbour at each distance")
+  command
+      .add_option("--pairs", o.study.max_pairs,
+                  "largest number of poses to measure with a neighbour, at each distance")
       .check(in_range(1, 100000))
       .capture_default_str();
   command
       .add_option("--distances", o.study.distances_m,
-                  "distances between the bodies in metres, separated by commas")
+                  "distances between the body and its neighbour in metres; separate them by commas. Default: "
+                  "0.75,1.5")
       .delimiter(',')
       .check(in_range(0.01, 1000.0));
   add_common_options(command, o.common);

@@ -51,7 +51,7 @@ Json evaluate(const Options& options) {
   const std::optional<bake::Recipe> recipe = stored_recipe(baked);
   if (!recipe)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "the model does not store how its training poses were made; bake it again");
+                  "the model does not contain the recipe of the poses that it was fitted to; bake it again");
   PoseChoice fitted;
   fitted.training = true;
   fitted.most = options.training_poses;
@@ -92,28 +92,32 @@ Json evaluate(const Options& options) {
 void add_evaluate_lods(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "lods",
-      "measure lower levels of detail of a character against ray tracing.\nmeshoptimizer makes meshes with "
-      "fewer triangles from the character, and each mesh is compared with its own ray-traced AO. refitted "
-      "fits the vertices of the new mesh, like nook bake lod. resampled interpolates the weights from the "
-      "full mesh (nook_model_resample). nearest gives each vertex the AO of the nearest baked vertex.");
+      "measure three ways to get AO on simplified copies of a character, against ray tracing.\nmeshoptimizer "
+      "makes meshes with fewer triangles from the character. Each mesh is compared with its own ray-traced "
+      "AO. The way called refitted fits the vertices of the new mesh, like `nook bake lod`. resampled "
+      "interpolates the weights of the full mesh (nook_model_resample). nearest gives each vertex the AO of "
+      "the nearest vertex of the full mesh.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.samples_per_clip = 4;
   add_evaluated_files(command, o.files);
   command
       .add_option("--shares", o.shares,
-                  "number of triangles of each level as a share of the full mesh, separated by commas")
+                  "number of triangles of each simplified mesh, divided by the number in the full mesh; "
+                  "separate the values by commas")
       .delimiter(',')
       .check(in_range(0.001, 1.0))
       .capture_default_str();
-  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses from each clip")
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses to take from each clip")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
+  command
+      .add_option("--max-poses", o.poses.most,
+                  "measure at most this many of these poses, picked at even intervals. Default: all")
       .check(in_range(1, 10000000));
   command
       .add_option("--training-poses", o.training_poses,
-                  "number of poses to which the refitted vertices are fitted")
+                  "for refitted: number of poses that the vertices are fitted to")
       .check(in_range(8, 100000))
       .capture_default_str();
   command.add_option("--rays", o.rays, "number of rays per vertex and pose")

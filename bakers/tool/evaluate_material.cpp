@@ -113,13 +113,13 @@ Json evaluate(const Options& o, const MaterialPeers* peers) {
 void add_mode_options(Command command, nook::material::ModeForm& form) {
   command
       .add_choice("--modes", form.blocks, block_forms,
-                  "how the textures store the spatial modes when the material is drawn: plain (as in the "
-                  "file), or compressed in blocks of the formats rgtc or eac")
+                  "format of the textures that store the spatial modes of the material: plain (default, as "
+                  "in the file), or the block compression rgtc or eac")
       .type_name("FORM");
   command
-      .add_option(
-          "--whole-light-modes", form.whole_light_modes,
-          "for --modes rgtc and eac: how many of the first light modes stay uncompressed, a multiple of 4")
+      .add_option("--whole-light-modes", form.whole_light_modes,
+                  "for --modes rgtc and eac: number of the first light modes that are not compressed in "
+                  "blocks, a multiple of 4")
       .check(in_range(0u, nook::material::max_light_modes))
       .capture_default_str();
 }
@@ -131,25 +131,30 @@ void add_evaluate_material(Command evaluate_command) {
 }
 
 void add_evaluate_material(Command evaluate_command, std::shared_ptr<MaterialPeers> peers) {
-  const Command command =
-      evaluate_command.add_subcommand("material", "measure a compressed material against the raw one");
+  const Command command = evaluate_command.add_subcommand(
+      "material", "measure a compressed material against the uncompressed (raw) one");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("raw", o.raw, "the raw material, which `bake material --keep-raw` wrote").required();
+  command
+      .add_input("raw", o.raw, "the uncompressed material, a file that `nook bake material --keep-raw` wrote")
+      .required();
   command.add_input("material", o.material, "the compressed material, a .nook file").required();
-  command.add_input("--unseen", o.unseen,
-                    "a raw material with other views, and possibly other lights, to measure the error "
-                    "between the stored samples");
+  command.add_input(
+      "--unseen", o.unseen,
+      "also measure the error in views that the material does not store. Give the same material with other "
+      "views (and lights, if you like), a file that `nook bake material --keep-raw` wrote");
   command.add_flag("--jumps", o.jumps,
-                   "measure how much the picture changes when the view turns by 0.1 degrees, with and "
-                   "without the view map; --images draws the largest change");
+                   "also measure how much the picture changes when the view turns by 0.1 degrees, with and "
+                   "without the view map. --images draws the largest change");
   command.add_flag("--mipmaps", o.mipmaps,
-                   "measure pixels that cover 2 x 2, 4 x 4 and more texels, with and without mipmaps");
+                   "also measure pixels that cover 2 x 2, 4 x 4 and more texels, with and without mipmaps");
   command.add_flag("--grazing", o.grazing,
-                   "measure pixels at view angles of 60 to 85 degrees against supersampling, with 1 to 8 "
-                   "fetches along the pixel");
+                   "also measure pixels at view angles of 60 to 85 degrees from the normal, against "
+                   "supersampling, with 1 to 8 fetches along the pixel");
   add_mode_options(command, o.form);
-  command.add_option("--images", o.images, "write pictures into this folder");
+  command.add_option(
+      "--images", o.images,
+      "write PNG files into this folder: the raw material, the decoded material and their difference");
   if (peers) peers->add_options(command);
   add_common_options(command, o.common);
   command.callback([options, peers] {

@@ -43,7 +43,8 @@ void write_pictures(const std::filesystem::path& folder, const std::string& fram
 void warn_about_network(const std::string& frame, const Recording& recording) {
   if (!nook::nnao::recorded_network(recording).readable)
     std::fprintf(stderr,
-                 "%s: this version cannot evaluate its network; the embedded network is used instead\n",
+                 "%s: this version of Nook cannot evaluate the network that was recorded; the network that "
+                 "is built into Nook is used instead\n",
                  frame.c_str());
 }
 
@@ -130,29 +131,31 @@ Json evaluate_frames(platform::Context& context, const FrameWords& words, const 
 void add_evaluate_nnao(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "nnao",
-      "measure recorded frames of the screen-space pass.\nEach frame is drawn again as it was recorded, and "
-      "with the presets. The results are compared with the exact AO of the recorded depth (the oracle). "
-      "`nook-lab evaluate nnao` measures scenes.");
+      "measure recorded frames of the screen-space pass (NNAO).\nThe command draws the AO of each frame "
+      "again: with the recorded settings (replayed), and with the presets fast, default and best. It "
+      "compares the results with the exact AO of the recorded depth buffer (oracle). `nook-lab evaluate "
+      "nnao` measures scenes.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
       .add_input("--frame", o.frames,
-                 "recorded frame, a file that nook_nnao_record wrote; you can repeat the option")
+                 "measure this recorded frame, a file that nook_nnao_record wrote. You can repeat the option")
       .required()
       .type_name("FILE.nook");
   std::vector<std::string> names{"all", file_name};
   for (const std::string& name : frame_method_names()) names.push_back(name);
   for (const Oracle oracle : all_oracles) names.push_back(oracle_name(oracle));
   command
-      .add_option("--methods", o.methods,
-                  "draw only these methods, each as NAME or NAME:TAPS, separated by commas; default: "
-                  "replayed, fast, default, best and oracle, and nnao_file if --network is given")
+      .add_option(
+          "--methods", o.methods,
+          "draw only these methods; separate them by commas. Each is NAME, or NAME:TAPS for a number of "
+          "taps. Default: replayed, fast, default, best and oracle, and nnao_file if you give --network")
       .delimiter(',')
       .check([names](const std::string& text) { return one_of(names)(text.substr(0, text.find(':'))); });
   command.add_input(
       "--network", o.network,
-      "also draw with this network, a file that `nook train nnao` wrote; the report calls it nnao_file");
-  command.add_option("--images", o.images, "write pictures of each frame into this folder");
+      "also draw with this network, a file that `nook train nnao` wrote. Its method is called nnao_file");
+  command.add_option("--images", o.images, "write PNG files of each frame into this folder");
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

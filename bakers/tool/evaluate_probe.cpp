@@ -116,7 +116,7 @@ Json evaluate_grids(const EvaluateGridOptions& options, const CommonOptions& com
 Json evaluate(const Options& options, const ProbePeers* peers) {
   if (options.grid.scene.empty() != options.grid.light.empty())
     throw ToolError(exit_bad_arguments,
-                    "evaluate probe: grids need both --scene and --light, maps need neither");
+                    "evaluate probe: give both --scene and --light for grids, or neither of them for maps");
   if (!options.grid.scene.empty()) return evaluate_grids(options.grid, options.common, options.files);
   Json report;
   report["rows"] = Json::array();
@@ -129,8 +129,7 @@ Json evaluate(const Options& options, const ProbePeers* peers) {
       if (!map)
         throw ToolError(
             exit_bad_arguments,
-            path.string() +
-                ": stands before its map; give each map before the files that were baked from it");
+            path.string() + ": comes before its map; give each map before the files that were baked from it");
       report["rows"].push_back(file_row(path, name, *map));
       continue;
     }
@@ -161,52 +160,56 @@ void add_evaluate_probe(Command evaluate_command) {
 void add_evaluate_probe(Command evaluate_command, std::shared_ptr<ProbePeers> peers) {
   const Command command = evaluate_command.add_subcommand(
       "probe",
-      "measure light probes.\nProbes are compared with their environment map, and grids with path tracing.");
+      "measure light probes, and grids of light probes.\nA probe is compared with the environment map that "
+      "it was baked from. A grid is compared with path tracing in its scene.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
       .add_input("files", o.files,
-                 "latitude-longitude maps (.hdr or .exr), each followed by the .nook files that were baked "
-                 "from it; with --scene: .nook files of grids")
+                 "for probes: latitude-longitude maps (.hdr or .exr), each followed by the .nook files that "
+                 "were baked from it. For grids: the .nook files, with --scene and --light")
       .required();
   command.add_input("--scene", o.grid.scene,
-                    "for grids: the scene that they were baked from, a .glb or .gltf file");
-  command.add_input("--light", o.grid.light, "for grids: the environment map around the scene");
+                    "for grids (required): the scene that the grids were baked from, a .glb or .gltf file");
+  command.add_input("--light", o.grid.light,
+                    "for grids (required): the environment map that lights the scene, a .hdr or .exr file");
   command
       .add_option("--points", o.grid.points,
-                  "for grids: number of random points on surfaces; the same number of points is measured in "
-                  "open space")
+                  "for grids: number of random points to measure on surfaces, and again in open space")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
-  command.add_option("--paths", o.grid.paths, "for grids: number of paths to trace from each point")
+  command.add_option("--paths", o.grid.paths, "for grids: number of paths to trace from each measured point")
       .check(in_range(2u, 1u << 24))
       .capture_default_str();
   command.add_option("--max-bounces", o.grid.max_bounces,
-                     "for grids: largest number of bounces; default unlimited");
+                     "for grids: largest number of bounces of a path. Default: no limit");
   command
       .add_option("--direct", o.grid.direct,
-                  "for grids: which direct light of the map to compare: none, the sky without suns, or all; "
-                  "default as in the bake of the grid")
+                  "for grids: direct light of the map to include in the comparison: none, sky (the map "
+                  "without its suns) or all. Default: as in the bake of the grid")
       .check(one_of(bake::direct_names()));
   add_import_options(command, o.grid.reading);
   command.add_flag("--no-textures", o.grid.no_textures,
-                   "for grids: use colour factors in place of textures, and treat alpha masks as solid");
+                   "for grids: do not read textures; use the colour factors of materials instead, and treat "
+                   "surfaces with alpha masks as solid");
   command
       .add_option("--lobes", o.lobes,
-                  "number of lobes (spherical Gaussians) in the fits that this command makes")
+                  "for maps: number of lobes (spherical Gaussians) in the probes that this command fits for "
+                  "comparison")
       .check(in_range(1u, nook::probe::max_functions - 1))
       .capture_default_str();
   command
-      .add_option("--seeds", o.comparison.seeds, "repeat each fit with this many independent sets of samples")
+      .add_option("--seeds", o.comparison.seeds,
+                  "for maps: number of times to repeat each of these fits, each time with other samples")
       .check(in_range(1, 1000))
       .capture_default_str();
   command
-      .add_option(
-          "--rotations", o.comparison.rotations,
-          "repeat the fits of lobes this many times with randomly rotated axes, and report the spread")
+      .add_option("--rotations", o.comparison.rotations,
+                  "for maps: number of times to repeat the fits of lobes with randomly rotated axes. The "
+                  "report then contains the errors of all rotations")
       .check(in_range(0, 1000))
       .capture_default_str();
-  command.add_option("--images", o.images, "write a picture of each map and its lobes into this folder");
+  command.add_option("--images", o.images, "write a PNG file of each map and of its lobes into this folder");
   if (peers) peers->add_options(command);
   add_common_options(command, o.common);
   command.callback([options, peers] {

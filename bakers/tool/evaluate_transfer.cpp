@@ -57,8 +57,8 @@ struct TruthOf {
     name += ", holes of the VOTF";
     if (baked.votf_hash != 0 && baked.votf_hash != tables.votf_hash && !o.common.quiet)
       std::fprintf(stderr,
-                   "nook: %s: was baked with the holes of another material than %s; the results include the "
-                   "error that this causes\n",
+                   "nook: %s was baked with the holes of another material than %s; the errors below include "
+                   "this difference\n",
                    o.transfer.c_str(), o.material.c_str());
     if (tables.visibility == material::VisibilityForm::none) return;
     holes = bake::transfer::make_hole_table(tables);
@@ -151,39 +151,46 @@ Json evaluate(const Options& o) {
 
 void add_evaluate_transfer(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
-      "transfer", "measure baked radiance transfer against direct sums and path tracing");
+      "transfer",
+      "measure baked radiance transfer, against direct sums over the light and against path tracing");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("mesh", o.mesh, "the shape, a .glb or .gltf file").required();
-  command.add_input("transfer", o.transfer, "the .nook file that was baked from the shape").required();
+  command.add_input("mesh", o.mesh, "the shape that the transfer was baked from, a .glb or .gltf file")
+      .required();
+  command
+      .add_input("transfer", o.transfer, "the baked transfer, a .nook file that `nook bake transfer` wrote")
+      .required();
   command.add_input("--material", o.material, "the .nook file of the material on the shape").required();
   command.add_input("--raw", o.raw,
-                    "draw the reference pictures with this raw material, which `bake material --keep-raw` "
-                    "wrote, instead of the decoded material");
-  command.add_input("--light", o.lights, "latitude-longitude maps, .hdr or .exr, as light").required();
+                    "path trace the reference pictures with this uncompressed material, a file that `nook "
+                    "bake material --keep-raw` wrote. Default: with the decoded --material");
+  command
+      .add_input("--light", o.lights,
+                 "measure under the light of these latitude-longitude maps, .hdr or .exr files")
+      .required();
   command.add_flag("--without-suns", o.without_suns,
-                   "remove suns from the maps first, for engines that draw suns with shadow maps");
+                   "remove the suns from the maps first. Use it if your engine draws suns with shadow maps");
   command.add_option("--images", o.images,
-                     "write a picture for each light into this folder; each picture shows the path-traced "
-                     "reference and each form side by side");
-  command.add_flag("--no-pictures", o.no_pictures, "do not draw pictures; measure only the transfer vectors");
+                     "write a PNG file for each light into this folder. It shows the path-traced reference "
+                     "and each form of the transfer side by side");
+  command.add_flag("--no-pictures", o.no_pictures,
+                   "do not draw or measure pictures; measure only the transfer vectors");
   command.add_option("--width", o.picture.width, "width of a picture in pixels")
       .check(in_range(16, 4096))
       .capture_default_str();
   command.add_option("--height", o.picture.height, "height of a picture in pixels")
       .check(in_range(16, 4096))
       .capture_default_str();
-  command
-      .add_option("--paths", o.picture.paths, "number of light samples per pixel in the path-traced picture")
+  command.add_option("--paths", o.picture.paths, "number of paths per pixel of the path-traced picture")
       .check(in_range(2u, 1u << 20))
       .capture_default_str();
   command
       .add_option("--truth-bounces", o.truth_bounces,
-                  "number of bounces in the path-traced picture; default as in the file")
+                  "number of bounces of light in the path-traced picture. Default: as in the baked transfer")
       .check(in_range(0u, 8u));
   command.add_flag("--truth-holes", o.truth_holes,
                    "in the path-traced picture, let light fall through the holes of the material, even if "
-                   "the file was baked without holes");
+                   "the transfer was baked without holes");
   command.add_option("--tiles", o.tiles, "number of tiles of the material per unit of texture coordinates")
       .check(in_range(0.01f, 1000.0f))
       .capture_default_str();

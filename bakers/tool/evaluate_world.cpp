@@ -65,7 +65,7 @@ void require_rooms(const Options& options) {
   if (options.scene_metres.size() > options.scenes.size())
     throw ToolError(exit_bad_arguments, "--scene-metres has " + std::to_string(options.scene_metres.size()) +
                                             " values for " + std::to_string(options.scenes.size()) +
-                                            " of --scene; give at most one for each");
+                                            " of --scene; give at most one value for each scene");
 }
 
 Json composite_report(const Options& options, const measure::BakedCharacter& baked,
@@ -149,83 +149,93 @@ Json evaluate(const Options& options) {
 void add_evaluate_world(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "world",
-      "measure how a baked character darkens the world around it, against ray tracing.\nThe darkened "
+      "measure how a baked character darkens the world around it, against ray tracing.\nThe measured "
       "surfaces are a floor, a wall 0.3 m away, a ring of floor around a point of contact, a neighbour, and "
-      "the floor under cones of light. Nook's world casters are compared with the methods that engines use. "
-      "over_none is the mean squared error, divided by the error without any darkening. over_capsules is the "
-      "mean squared error, divided by the error with one capsule per bone. low and high are 95 % bounds from "
-      "a bootstrap over the poses.");
+      "the floor under cones of light. The methods are Nook's world casters, and methods that engines use. "
+      "over_none is the mean squared error of a method, divided by the error without any darkening. "
+      "over_capsules is the mean squared error of a method, divided by the error of one capsule per bone. "
+      "low and high are 95 % bounds from a bootstrap over the poses.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   o.poses.most = 48;
   add_evaluated_files(command, o.files);
-  command.add_option("--clips", o.poses.clips, "measure only these clips, separated by commas")
+  command
+      .add_option("--clips", o.poses.clips,
+                  "measure only these clips; separate their names by commas. Default: the clips that the "
+                  "model was not fitted to, or all clips if it was fitted to all")
       .delimiter(',');
-  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses from each clip")
+  command.add_option("--samples-per-clip", o.poses.samples_per_clip, "number of poses to take from each clip")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--max-poses", o.poses.most, "measure at most this many poses, picked evenly")
+  command
+      .add_option("--max-poses", o.poses.most,
+                  "measure at most this many of these poses, picked at even intervals")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--points", o.study.points, "number of points on each surface in each pose")
+  command.add_option("--points", o.study.points, "number of points to measure on each surface in each pose")
       .check(in_range(1, 90000))
       .capture_default_str();
   command
-      .add_option("--rays", o.study.rays, "number of rays per point; a cone takes an eighth of this number")
+      .add_option("--rays", o.study.rays,
+                  "number of rays per point. A cone of light takes an eighth of this number")
       .check(in_range(8, 65536))
       .capture_default_str();
   command.add_option("--images", o.images,
-                     "write PNG files into this folder: floor and wall by ray tracing, Nook, capsules and "
-                     "blobs. With --composite: each room by ray tracing, Nook, and the screen pass alone. "
-                     "With --light: each lit room by ray tracing, Nook, AO times the probe, and capsules");
-  command.add_option("--image-count", o.image_count, "number of poses to draw")
+                     "write PNG files into this folder. They show floor and wall, darkened by ray tracing, "
+                     "Nook, capsules and blobs. With --composite, they show each room by ray tracing, by "
+                     "Nook, and by the screen pass alone. With --light, they show each lit room by ray "
+                     "tracing, by Nook, by AO times the probe, and by capsules");
+  command.add_option("--image-count", o.image_count, "with --images: number of poses to draw")
       .check(in_range(1, 1000))
       .capture_default_str();
-  const Option composite =
-      command.add_flag("--composite", o.composite,
-                       "measure characters and the screen pass together instead, in rooms with characters; "
-                       "pixels that the characters darken are reported separately");
+  const Option composite = command.add_flag(
+      "--composite", o.composite,
+      "instead, measure world casters and the screen-space pass together, in pictures of rooms with "
+      "characters. The report has separate rows for the pixels that the characters darken");
   const Option silhouettes =
       command
           .add_flag("--silhouettes", o.silhouettes,
-                    "compare the outlines of shadows on the floor instead. The light has a cone of 1 degree "
-                    "and comes from 8 directions at 45 degrees; the floor is divided into cells of 1 cm. iou "
-                    "is the area inside both shadows, divided by the area inside at least one")
+                    "instead, compare the outlines of shadows on the floor. The light has a cone of 1 degree "
+                    "and comes from 8 directions, 45 degrees high; the floor is divided into cells of 1 cm. "
+                    "iou is the area in which the shadow overlaps the ray-traced shadow, divided by the area "
+                    "that either of them covers")
           .excludes(composite);
   command
-      .add_input("--light", o.lights,
-                 "measure the irradiance of floor and wall under this latitude-longitude map instead, and "
-                 "compare each colour channel with path tracing; you can give several maps")
+      .add_input(
+          "--light", o.lights,
+          "instead, measure the irradiance of floor and wall under the light of this latitude-longitude map, "
+          "against path tracing in each colour channel. You can give several maps")
       .check(existing_file())
       .excludes(composite)
       .excludes(silhouettes);
-  const Option scene =
-      command
-          .add_input("--scene", o.scenes,
-                     "with --composite, or with --light and --images: also measure in this room, a glTF file "
-                     "with +y up")
-          .check(existing_file());
-  command.add_option("--scene-metres", o.scene_metres, "metres per unit of each --scene; default 1")
+  const Option scene = command
+                           .add_input("--scene", o.scenes,
+                                      "with --composite, or with --light and --images: also use this room, "
+                                      "besides the built-in one. Give a .glb or .gltf file with +y up")
+                           .check(existing_file());
+  command
+      .add_option("--scene-metres", o.scene_metres,
+                  "metres per unit of each --scene, in the same order. Default: 1")
       .check(in_range(1e-4f, 1e4f))
       .needs(scene);
   command
       .add_option("--scene-mesh", o.scene_meshes.only,
-                  "read only the meshes of this name from each --scene, matched as in --mesh; --mesh itself "
-                  "chooses meshes of the character")
+                  "read only the meshes with this name from each --scene, matched as in --mesh. (--mesh "
+                  "itself chooses meshes of the character.)")
       .one_each()
       .needs(scene)
       .type_name("NAME");
   command
       .add_option("--scene-without", o.scene_meshes.without,
-                  "leave out the meshes of this name from each --scene, such as a ceiling")
+                  "leave out the meshes with this name from each --scene, such as a ceiling")
       .one_each()
       .needs(scene)
       .type_name("NAME");
-  command.add_option("--views", o.rooms.views, "with --composite: number of views of each room")
+  command.add_option("--views", o.rooms.views, "with --composite: number of views to draw of each room")
       .check(in_range(1, 1000))
       .capture_default_str()
       .needs(composite);
-  command.add_option("--figures", o.rooms.figures, "number of characters in each room")
+  command.add_option("--figures", o.rooms.figures, "number of characters to place in each room")
       .check(in_range(1, 100))
       .capture_default_str();
   add_common_options(command, o.common);

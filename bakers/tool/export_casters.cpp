@@ -64,18 +64,22 @@ void run(const Options& o) {
 void add_export_casters(Command export_command) {
   const Command command = export_command.add_subcommand(
       "casters",
-      "write the world casters of a baked character for other engines.\nThe formats are a physics asset for "
-      "Unreal as text, a list of capsules for Source 2, or extras of a glTF file. rms and largest are the "
-      "root mean square and the largest difference between AO from the exported casters and AO from Nook's "
-      "own casters, on the floor below the rest pose. over_none is the mean squared difference, divided by "
-      "the difference without any casters.");
+      "write the world casters of a baked character for another engine.\nWorld casters are the capsules with "
+      "which a body darkens the world around it. The table compares the AO of the written casters with the "
+      "AO of Nook's own casters, on the floor below the rest pose: rms is the root mean square difference, "
+      "and largest is the largest difference. over_none is the mean squared difference, divided by the "
+      "difference without any casters.");
   const auto options = std::make_shared<Options>();
-  command.add_input("model", options->model, "a model that `nook bake character` wrote").required();
-  command.add_option("-o,--output", options->output, "the file to write").required();
-  command.add_choice("--format", options->format, formats,
-                     "format to write: unreal, source2 or gltf (default)");
+  command.add_input("model", options->model, "the baked model, a .nook file that `nook bake character` wrote")
+      .required();
+  command.add_option("-o,--output", options->output, "write the casters to this file").required();
+  command.add_choice(
+      "--format", options->format, formats,
+      "format of the file: gltf (default, extras of a glTF file, in metres), source2 (capsules of a ModelDoc "
+      "file, in inches) or unreal (bodies of a physics asset as text, in centimetres)");
   command.add_choice("--radii", options->radii, radii_names,
-                     "for unreal and source2: what the radii are fitted to, ao (default) or light");
+                     "for unreal and source2, whose capsules have only one radius: write the radius that is "
+                     "fitted to ambient occlusion (ao, default) or to shadows of lights (light)");
   add_common_options(command, options->common);
   command.callback([options] { run(*options); });
 }

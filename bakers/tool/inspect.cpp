@@ -84,10 +84,10 @@ std::vector<Table> tables_of_rig(const Options& options) {
 
 void require_rig_options(const Options& options, bool gltf) {
   if (options.shows_rig && !gltf)
-    throw ToolError(exit_bad_arguments, "inspect: --rig needs the rig of a .glb or .gltf file (got " +
+    throw ToolError(exit_bad_arguments, "inspect: --rig works only with a .glb or .gltf file (got " +
                                             options.input.string() + ")");
   if (!options.shows_rig && !options.images.empty())
-    throw ToolError(exit_bad_arguments, "inspect: --images draws only a rig; add --rig");
+    throw ToolError(exit_bad_arguments, "inspect: --images draws the rig, so it needs --rig; add --rig");
 }
 
 void run(const Options& options) {
@@ -127,7 +127,7 @@ void run(const Options& options) {
 void add_inspect(Command tool) {
   const Command command =
       tool.add_subcommand("inspect",
-                          "show what a .nook or glTF file contains.\nFor a glTF file, the command lists "
+                          "show what a .nook or glTF file contains.\nFor a glTF file, the command lists its "
                           "meshes, skins and clips, and says which meshes a bake would use.");
   const auto options = std::make_shared<Options>();
   command.add_input("file", options->input, "a .nook, .glb or .gltf file").required();
@@ -139,14 +139,14 @@ void add_inspect(Command tool) {
             options->shows_rig = true;
             options->rig = path;
           },
-          "for a glTF file: show how a bake understands the rig. The list contains the role, side, limb, "
-          "partner and parent of each bone, and the number of mesh edges that automatic poses tear. If you "
-          "give a rig file, the list shows the rig after its corrections")
+          "for a glTF file: also show how a bake understands the rig: the role, side, limb, partner and "
+          "parent of each bone, and the number of mesh edges that generated poses tear apart. If you give a "
+          "rig FILE, its corrections are applied first")
       .expected(0, 1)
       .type_name("[FILE]");
   command.add_option("--images", options->images,
-                     "with --rig: write rig.png into this folder, a picture of the body in which colours "
-                     "show the roles of the bones");
+                     "with --rig: write rig.png into this folder. It shows the body, and colours show the "
+                     "roles of the bones");
   add_common_options(command, options->common);
   command.callback([options] { run(*options); });
 }

@@ -12,12 +12,15 @@
 namespace {
 
 void add_commands(CLI::App& tool) {
-  CLI::App* bake = tool.add_subcommand("bake", "make .nook files from characters, maps, materials and shapes")
-                       ->require_subcommand(1);
-  CLI::App* evaluate = tool.add_subcommand("evaluate",
-                                           "measure .nook files against ray tracing.\nnook-lab evaluate, "
-                                           "which -DNOOK_LAB=ON builds, adds other methods.")
-                           ->require_subcommand(1);
+  CLI::App* bake =
+      tool.add_subcommand("bake",
+                          "bake .nook files from characters, environment maps, scenes, materials and shapes")
+          ->require_subcommand(1);
+  CLI::App* evaluate =
+      tool.add_subcommand("evaluate",
+                          "measure .nook files against ray tracing.\n`nook-lab evaluate` also measures other "
+                          "methods, for comparison; build it with -DNOOK_LAB=ON.")
+          ->require_subcommand(1);
   nook::tool::add_bake_character(nook::tool::Command(*bake));
   nook::tool::add_bake_bent(nook::tool::Command(*bake));
   nook::tool::add_bake_clips(nook::tool::Command(*bake));
@@ -37,16 +40,19 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_evaluate_transfer(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_world(nook::tool::Command(*evaluate));
   CLI::App* train =
-      tool.add_subcommand("train", "train networks, and fit the constants that are built into Nook")
+      tool.add_subcommand("train", "train the networks, and fit the constants, that are built into Nook")
           ->require_subcommand(1);
   nook::tool::add_train_bent(nook::tool::Command(*train));
   nook::tool::add_train_nnao(nook::tool::Command(*train));
   nook::tool::add_train_specular(nook::tool::Command(*train));
-  CLI::App* write = tool.add_subcommand("export", "write the contents of .nook files for other engines")
-                        ->require_subcommand(1);
+  CLI::App* write =
+      tool.add_subcommand("export", "write parts of .nook files in the formats of other engines")
+          ->require_subcommand(1);
   nook::tool::add_export_casters(nook::tool::Command(*write));
-  CLI::App* cache = tool.add_subcommand("cache", "remove old results from the folder of bake --cache")
-                        ->require_subcommand(1);
+  CLI::App* cache =
+      tool.add_subcommand("cache",
+                          "remove old results from a cache, the folder that you give to a bake with --cache")
+          ->require_subcommand(1);
   nook::tool::add_cache_prune(nook::tool::Command(*cache));
   nook::tool::add_plan(nook::tool::Command(tool));
   nook::tool::add_build(nook::tool::Command(tool));
@@ -82,7 +88,7 @@ int main(int argc, char** argv) {
   return nook::tool::run_program(
       argc, argv, "nook",
       "Bakes ambient occlusion, light probes, materials and radiance transfer, measures them against ray "
-      "tracing, and inspects .nook files.\n"
-      "Exit codes: 0 done, 2 bad arguments, 3 bad input, 4 a result that --strict refuses, 1 anything else.",
+      "tracing, and inspects .nook files.\nExit codes: 0 success, 2 bad arguments, 3 bad input, 4 a result "
+      "that --strict refuses, 1 any other error.",
       add_commands, lab_words());
 }

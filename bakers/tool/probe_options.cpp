@@ -28,35 +28,45 @@ std::size_t index_of(const std::vector<std::string>& names, const std::string& n
 void add_probe_options(Command command, ProbeOptions& options) {
   command
       .add_option("--lobes", options.lobes,
-                  "number of lobes (spherical Gaussians), evenly spread on a Vogel spiral")
+                  "for --basis gaussians: number of lobes (spherical Gaussians). Their axes are spread "
+                  "evenly over the sphere, on a Vogel spiral")
       .check(in_range(1u, probe::max_functions))
       .capture_default_str();
   command
       .add_option("--sharpness", options.sharpness,
-                  "sharpness of all lobes; 0 means that the number of lobes determines it")
+                  "for --basis gaussians: sharpness of every lobe. 0 means half the number of lobes, or the "
+                  "number of lobes with --hemisphere")
       .check(in_range(0.0f, probe::max_sharpness))
       .capture_default_str();
-  command.add_flag("--ambient", options.ambient, "add a constant term to the lobes");
-  command.add_flag("--hemisphere", options.hemisphere, "use only directions above the horizon (+y is up)");
-  command.add_option("--method", options.method, "how the coefficients are fitted")
+  command.add_flag("--ambient", options.ambient,
+                   "for --basis gaussians: add a constant function to the lobes");
+  command.add_flag("--hemisphere", options.hemisphere,
+                   "fit and store only the light from above the horizon (+y is up)");
+  command
+      .add_option("--method", options.method,
+                  "how the coefficients are fitted to the samples (docs/probes.md compares the methods)")
       .check(one_of(method_names))
       .capture_default_str();
   command
       .add_option("--constraint", options.constraint,
-                  "bands makes the lobes reproduce bands 0 to 2 of the light's spherical harmonics exactly; "
-                  "none is plain least squares")
+                  "constraint on the fit of lobes: bands (the lobes reproduce bands 0 to 2 of the light's "
+                  "spherical harmonics exactly) or none (plain least squares)")
       .check(one_of(constraint_names))
       .capture_default_str();
   command
-      .add_option(
-          "--basis", options.basis,
-          "functions that the probe is made of: spherical Gaussians, spherical harmonics or ambient dice")
+      .add_option("--basis", options.basis,
+                  "functions that represent the light: gaussians (spherical Gaussians), harmonics (spherical "
+                  "harmonics) or dice (ambient dice)")
       .check(one_of(basis_names))
       .capture_default_str();
-  command.add_option("--order", options.order, "for --basis harmonics: highest band")
+  command
+      .add_option("--order", options.order, "for --basis harmonics: highest band of the spherical harmonics")
       .check(in_range(1u, probe::max_order))
       .capture_default_str();
-  command.add_option("--packing", options.packing, "number format of the coefficients in the file")
+  command
+      .add_option("--packing", options.packing,
+                  "number format of the coefficients in the file: float (32 bits), half (16 bits) or rgb9e5 "
+                  "(32 bits for the three colours together)")
       .check(one_of(packing_names))
       .capture_default_str();
 }
@@ -116,8 +126,9 @@ std::array<std::uint32_t, 3> parse_grid_counts(const std::string& text) {
   if (std::sscanf(text.c_str(), "%ux%ux%u%n", &counts[0], &counts[1], &counts[2], &used) != 3 ||
       std::size_t(used) != text.size() || counts[0] < 1 || counts[1] < 1 || counts[2] < 1 ||
       counts[0] > 1024 || counts[1] > 1024 || counts[2] > 1024)
-    throw ToolError(exit_bad_arguments,
-                    "--grid: got " + text + ", need AxBxC, probes along x, y and z, each 1 to 1024");
+    throw ToolError(
+        exit_bad_arguments,
+        "--grid: got " + text + ", need AxBxC: the number of probes along x, y and z, each 1 to 1024");
   return counts;
 }
 

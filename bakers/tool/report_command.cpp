@@ -49,7 +49,7 @@ std::string end_of(const std::filesystem::path& file) {
 
 void take_once(std::filesystem::path& place, const std::filesystem::path& file, const char* what) {
   if (!place.empty())
-    throw ToolError(exit_bad_arguments, file.string() + ": is a second " + what + "; give one");
+    throw ToolError(exit_bad_arguments, file.string() + ": is the second " + what + "; give only one");
   place = file;
 }
 
@@ -233,19 +233,21 @@ void run_all(const Options& options) {
 
 void run_either(const Options& options) {
   if (!options.all.folder.empty()) return run_all(options);
-  if (options.file.empty()) throw ToolError(exit_bad_arguments, "file or --all is required");
+  if (options.file.empty())
+    throw ToolError(exit_bad_arguments, "report: give a .nook file, or a folder with --all");
   if (options.output.empty()) throw ToolError(exit_bad_arguments, "--output is required");
   if (!options.all.before.empty()) throw ToolError(exit_bad_arguments, "--since: needs --all");
   run(options);
 }
 
 void add_all_options(const Command& command, ReportAllOptions& all) {
-  command.add_option("--all", all.folder,
-                     "write one page about all baked files in this folder. Failed bakes come first, then the "
-                     "files with the largest errors; the page also says what changed since the last page. "
-                     "Default of -o: nook_report.html in the folder");
+  command.add_option(
+      "--all", all.folder,
+      "write one page about all baked files in this folder, instead of one file. Failed bakes come first, "
+      "then the files with the largest errors. The page also says what changed since the earlier page "
+      "(--since). The default of -o is then nook_report.html in the folder");
   command.add_option("--since", all.before,
-                     "with --all: the earlier page to compare with; default: the page that -o replaces");
+                     "with --all: compare with this earlier page. Default: the page that -o replaces");
 }
 
 }  // namespace
@@ -253,26 +255,28 @@ void add_all_options(const Command& command, ReportAllOptions& all) {
 void add_report(Command tool) {
   const Command command = tool.add_subcommand(
       "report",
-      "write one HTML page for artists about a .nook file, or about all files of a folder (--all).\nThe page "
-      "of a file shows pictures of the error next to ray tracing, the worst clips and places, a 3D view that "
-      "you can turn, sizes, and advice.");
+      "write an HTML page for artists about a .nook file, or about all files of a folder (--all).\nThe page "
+      "of a file shows pictures of its AO or light beside ray tracing, the clips and places with the largest "
+      "errors, a 3D view that you can turn, sizes, and advice.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("file", o.file, "a .nook file");
-  command.add_input(
-      "sources", o.sources,
-      "the files that it was baked from; docs/guide/artists.md lists them for each kind of file");
-  command.add_option("-o,--output", o.output, "the HTML page to write");
+  command.add_input("file", o.file, "the .nook file; required without --all");
+  command.add_input("sources", o.sources,
+                    "the files that the .nook file was baked from; docs/guide/artists.md lists them for each "
+                    "kind of .nook file");
+  command.add_option("-o,--output", o.output, "write the page to this .html file; required without --all");
   add_all_options(command, o.all);
-  command.add_option("--rays", o.body.rays, "for a character: number of rays per vertex and pose")
+  command
+      .add_option("--rays", o.body.rays,
+                  "for a character: number of rays per vertex and pose, to measure the error")
       .check(in_range(1, 65536))
       .capture_default_str();
   command
       .add_option("--samples-per-clip", o.body.samples_per_clip,
-                  "for a character: number of poses from each clip, up to 20; default: a number that takes "
-                  "about a minute")
+                  "for a character: number of poses to measure from each clip. Default: as many as can be "
+                  "ray traced in one to two minutes on two cores, at least 1 and at most 20")
       .check(in_range(1, 100000));
-  command.add_option("--licence", o.licence, "licence of what the page shows; the page prints this text");
+  command.add_option("--licence", o.licence, "show this text on the page as the licence of the asset");
   add_import_options(command, o.reading);
   add_common_options(command, o.common);
   command.callback([options] {

@@ -126,18 +126,19 @@ void run(const Options& options) {
 void add_task(Command tool) {
   const Command command = tool.add_subcommand(
       "task",
-      "run one command of nook with a log and retries, for bake farms.\nIf the command fails, it is run "
-      "again, unless its exit code is 2, 3 or 4, because then the same arguments and inputs would fail "
-      "again. The exit code is the exit code of the last run.");
+      "run another command of nook, with a log file and retries, for bake farms.\nIf the command fails, it "
+      "runs again. It does not run again if its exit code is 2, 3 or 4, because the same arguments and "
+      "inputs would then fail again. The exit code of `nook task` is the exit code of the last run.");
   const auto options = std::make_shared<Options>();
   command
       .add_option("command", options->words,
-                  "the command to run, such as bake, and its arguments; write -- before them")
+                  "the command to run and its arguments; write -- before them, as in: nook task -- bake "
+                  "character HERO.glb -o HERO.nook")
       .required();
-  command.add_option(
-      "--log", options->log,
-      "write everything that the command prints into this file, line by line; an existing file is replaced");
-  command.add_option("--retries", options->retries, "largest number of retries if the command fails")
+  command.add_option("--log", options->log,
+                     "write everything that the command prints to this file, line by line. An existing file "
+                     "is replaced. Default: no log file");
+  command.add_option("--retries", options->retries, "number of times to run the command again if it fails")
       .check(in_range(0, 100))
       .capture_default_str();
   command.callback([options] { run(*options); });

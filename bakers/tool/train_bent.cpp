@@ -53,24 +53,26 @@ Json train(const Options& options) {
 }  // namespace
 
 void add_train_bent(Command train_command) {
-  const Command command =
-      train_command.add_subcommand("bent",
-                                   "fit the specular occlusion of characters to ray tracing.\nThe fit reads "
-                                   "AO and bent normals of one character that was baked with bent normals.");
+  const Command command = train_command.add_subcommand(
+      "bent",
+      "fit the formula for the specular occlusion of characters to ray tracing.\nThe formula computes "
+      "specular occlusion from AO and bent normals. Its numbers are fitted on one character that was baked "
+      "with bent normals.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   add_evaluated_files(command, o.files);
   command
       .add_option("-o,--output", o.output,
-                  "the C++ header to write, such as shaders/character/specular_numbers.h")
+                  "write the numbers to this C++ header, such as shaders/character/specular_numbers.h")
       .required();
-  command.add_option("--max-poses", o.poses, "number of poses, picked evenly over the clips")
+  command
+      .add_option("--max-poses", o.poses, "number of poses to fit, picked at even intervals from all clips")
       .check(in_range(1, 100000))
       .capture_default_str();
-  command.add_option("--points", o.study.points, "number of vertices in each pose")
+  command.add_option("--points", o.study.points, "number of vertices to fit in each pose")
       .check(in_range(1, 10000000))
       .capture_default_str();
-  command.add_option("--steps", o.fit.steps, "number of steps of the fit")
+  command.add_option("--steps", o.fit.steps, "number of optimisation steps of the fit")
       .check(in_range(1, 1000000))
       .capture_default_str();
   add_common_options(command, o.common);

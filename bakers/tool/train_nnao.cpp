@@ -125,7 +125,7 @@ void run(Options& options) {
   } catch (const Failure& failure) {
     if (failure.code() != NOOK_ERROR_CANCELLED) throw;
     throw ToolError(exit_other, !options.resume.empty() && std::filesystem::exists(options.resume)
-                                    ? "stopped; the same command continues from " + options.resume
+                                    ? "stopped; run the same command again to continue from " + options.resume
                                     : std::string("stopped; nothing was written"));
   }
 }
@@ -135,42 +135,50 @@ void run(Options& options) {
 void add_train_nnao(Command train) {
   const Command command =
       train.add_subcommand("nnao",
-                           "train a screen-space network on procedural scenes.\nCtrl-C stops the training. "
-                           "Run the same command again to continue it.");
+                           "train a network for the screen-space pass (NNAO) on procedural scenes.\nCtrl-C "
+                           "stops the training. To continue it, run the same command again.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_option("-o,--output", o.output, "the .nook file to write").required();
+  command.add_option("-o,--output", o.output, "write the network to this .nook file").required();
   command
       .add_option_function(
           "--form",
           [&o](const std::string& name) {
             o.training.form = name == "paper" ? NetworkForm::paper : NetworkForm::horizon;
           },
-          "form of the network: horizon (default, the embedded network), or paper (Holden et al. 2016)")
+          "form of the network: horizon (default, the form of the network that is built into Nook) or paper "
+          "(Holden et al. 2016)")
       .check(one_of({"horizon", "paper"}))
       .type_name("NAME");
   command
       .add_option("--scenes", o.data.scenes,
-                  "number of procedural scenes; a sixth of the scenes is used only for validation")
+                  "number of procedural scenes. A sixth of them is used only for validation. Default: 240")
       .check(in_range(48, 100000));
-  command.add_option("--views", o.data.views, "number of cameras over all scenes")
+  command.add_option("--views", o.data.views, "number of camera views, of all scenes together. Default: 1440")
       .check(in_range(16, 1000000));
-  command.add_option("--points", o.data.points_per_view, "number of points in each view")
+  command.add_option("--points", o.data.points_per_view, "number of points in each view. Default: 600")
       .check(in_range(1, 100000));
-  command.add_option("--rays", o.data.rays, "number of rays per point").check(in_range(1, 65536));
-  command.add_option("--epochs", o.training.epochs, "number of passes over the training points")
+  command.add_option("--rays", o.data.rays, "number of rays per point. Default: 128")
+      .check(in_range(1, 65536));
+  command
+      .add_option("--epochs", o.training.epochs,
+                  "number of passes over the training points. Default: 40, or 12 with --form paper")
       .check(in_range(1, 100000));
   command
       .add_option("--time-limit", o.time_limit_s,
-                  "stop after this many seconds of training; run the same command again to continue")
+                  "stop after this many seconds of training; to continue, run the same command again. "
+                  "Default: no limit")
       .check(positive_number());
   command
       .add_option("--dark-weight", o.training.dark_weight,
-                  "for --form horizon: the factor w that gives dark points more weight; the weight of a "
-                  "point is 1 + w x (1 - AO)^2")
+                  "for --form horizon: how much more dark points count in the loss. The weight of a point is "
+                  "1 + w (1 - AO)^2, and this is w")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
-  command.add_option("--batch", o.training.batch, "number of points per training step, a multiple of 16")
+  command
+      .add_option(
+          "--batch", o.training.batch,
+          "number of points per training step, a multiple of 16. Default: 256, or 64 with --form paper")
       .check(in_range(16, 65536));
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });

@@ -48,7 +48,8 @@ void run_in_arena(const Options& options) {
     report_file->commit(report.dump(2) + "\n");
   }
   char line[160];
-  std::snprintf(line, sizeof line, "mse %.5f, with Lagarde's formula and the same AO %.5f, ratio %.3f\n",
+  std::snprintf(line, sizeof line,
+                "mse %.5f; Lagarde's formula from the same AO: mse %.5f; ratio of the two: %.3f\n",
                 trained.error.fitted, trained.error.lagarde, trained.error.fitted / trained.error.lagarde);
   print_table(options.common, line, true);
 }
@@ -64,25 +65,29 @@ void run(Options& options) {
 }  // namespace
 
 void add_train_specular(Command train) {
-  const Command command =
-      train.add_subcommand("specular",
-                           "fit the specular occlusion of the screen pass to ray tracing.\nThe fit reads AO "
-                           "and bent normals of procedural scenes.");
+  const Command command = train.add_subcommand(
+      "specular",
+      "fit the formula for the specular occlusion of the screen-space pass to ray tracing.\nThe formula "
+      "computes specular occlusion from AO and bent normals. Its numbers are fitted on procedural scenes.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command
-      .add_option("-o,--output", o.output, "the C++ header to write, such as shaders/nnao/specular_numbers.h")
+      .add_option("-o,--output", o.output,
+                  "write the numbers to this C++ header, such as shaders/nnao/specular_numbers.h")
       .required();
   command
       .add_option("--scenes", o.fit.data.scenes,
-                  "number of procedural scenes; a sixth of the scenes is used only for validation")
+                  "number of procedural scenes. A sixth of them is used only for validation. Default: 192")
       .check(in_range(48, 100000));
-  command.add_option("--views", o.fit.data.views, "number of cameras over all scenes")
+  command
+      .add_option("--views", o.fit.data.views, "number of camera views, of all scenes together. Default: 960")
       .check(in_range(48, 1000000));
-  command.add_option("--points", o.fit.data.points_per_view, "number of points in each view")
+  command.add_option("--points", o.fit.data.points_per_view, "number of points in each view. Default: 300")
       .check(in_range(1, 100000));
-  command.add_option("--rays", o.fit.rays, "number of rays per reflection").check(in_range(1, 65536));
-  command.add_option("--steps", o.fit.steps, "number of steps of the fit").check(in_range(1, 1000000));
+  command.add_option("--rays", o.fit.rays, "number of rays per reflection. Default: 64")
+      .check(in_range(1, 65536));
+  command.add_option("--steps", o.fit.steps, "number of optimisation steps of the fit. Default: 40000")
+      .check(in_range(1, 1000000));
   add_common_options(command, o.common);
   command.callback([options] { run(*options); });
 }

@@ -84,7 +84,8 @@ Json rows_of(const Options& options, const LookupScene& scene, float origin_offs
 Json evaluate(const Options& options) {
   if (options.scene.empty() != options.light.empty())
     throw ToolError(exit_bad_arguments,
-                    "evaluate grid: a scene needs both --scene and --light, the built-in rooms need neither");
+                    "evaluate grid: give both --scene and --light for a scene, or neither of them for the "
+                    "built-in rooms");
   Json report;
   if (options.scene.empty()) {
     const Rooms rooms = make_rooms();
@@ -106,31 +107,35 @@ Json evaluate(const Options& options) {
 }  // namespace
 
 void add_evaluate_grid(Command evaluate_command) {
-  const Command command =
-      evaluate_command.add_subcommand("grid",
-                                      "compare methods of interpolating a grid of light probes near "
-                                      "walls.\nThe grid lies in built-in closed rooms, or in a scene.");
+  const Command command = evaluate_command.add_subcommand(
+      "grid",
+      "compare methods that interpolate a grid of light probes, near walls.\nThe grid lies in built-in "
+      "closed rooms, or in the scene of --scene.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
   command.add_input("--scene", o.scene,
                     "measure in this scene, a .glb or .gltf file, instead of the built-in rooms");
-  command.add_input("--light", o.light, "for a scene: the environment map around it");
+  command.add_input(
+      "--light", o.light,
+      "with --scene (required): the environment map that lights the scene, a .hdr or .exr file");
   command
       .add_option_function(
           "--grid", [&o](const std::string& text) { o.counts = parse_grid_counts(text); },
-          "number of probes along x, y and z; default 6x2x5, which places eight probes in each built-in room")
+          "number of probes along x, y and z. Default: 6x2x5, which places eight probes in each built-in "
+          "room")
       .type_name("AxBxC");
   command
       .add_option_function(
           "--box", [&o](const std::string& text) { o.box = parse_grid_box(text); },
-          "box that the grid fills, as x0,y0,z0,x1,y1,z1 in metres; default the whole scene")
+          "low and high corner of the box that the grid fills, as x0,y0,z0,x1,y1,z1 in metres. Default: the "
+          "box around the scene")
       .type_name("BOX");
   command
       .add_option("--points", o.settings.points,
-                  "number of random points on surfaces; the same number of points is measured in open space")
+                  "number of random points to measure on surfaces, and again in open space")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
-  command.add_option("--paths", o.settings.paths, "number of paths to trace from each point")
+  command.add_option("--paths", o.settings.paths, "number of paths to trace from each measured point")
       .check(in_range(2u, 1u << 24))
       .capture_default_str();
   command.add_option("--samples", o.settings.samples, "number of paths to trace from each probe")
@@ -139,20 +144,22 @@ void add_evaluate_grid(Command evaluate_command) {
   command
       .add_option(
           "--training-paths", o.settings.training_paths,
-          "number of paths to trace from each point on surfaces to which walls and coefficients are fitted")
+          "number of paths to trace from each point on a surface that walls and coefficients are fitted to")
       .check(in_range(1u, 1u << 24))
       .capture_default_str();
   command
-      .add_option("--direct", o.direct,
-                  "which direct light of the map to compare: none, the sky without suns, or all")
+      .add_option(
+          "--direct", o.direct,
+          "direct light of the map to include in the comparison: none, sky (the map without its suns) or all")
       .check(one_of(bake::direct_names()))
       .capture_default_str();
   command.add_option("--picture", o.picture,
-                     "for the built-in rooms: write one .png that shows the light on the floor three times: "
-                     "path traced, interpolated trilinearly, and interpolated with walls");
+                     "for the built-in rooms: write a .png file that shows the light on the floor three "
+                     "times: path traced, interpolated trilinearly, and interpolated with walls");
   add_import_options(command, o.reading);
   command.add_flag("--no-textures", o.no_textures,
-                   "use the colour factors of materials instead of their textures");
+                   "with --scene: do not read textures; use the colour factors of materials instead, and "
+                   "treat surfaces with alpha masks as solid");
   add_common_options(command, o.common);
   command.callback([options] {
     const CommandFiles files{

@@ -18,8 +18,9 @@ constexpr nook::measure::CharacterPeer character_peers[] = {
     {"pose_clusters", nook::lab::fit_pose_clusters}};
 
 void add_commands(CLI::App& lab) {
-  CLI::App* evaluate = lab.add_subcommand("evaluate", "measure Nook and other methods against ray tracing")
-                           ->require_subcommand(1);
+  CLI::App* evaluate =
+      lab.add_subcommand("evaluate", "measure Nook and other methods against ray tracing, and compare them")
+          ->require_subcommand(1);
   nook::tool::add_evaluate_character(nook::tool::Command(*evaluate), character_peers);
   nook::lab::add_evaluate_grid(nook::tool::Command(*evaluate));
   nook::lab::add_evaluate_material(nook::tool::Command(*evaluate));
@@ -32,7 +33,7 @@ void add_commands(CLI::App& lab) {
 int main(int argc, char** argv) {
   return nook::tool::run_program(
       argc, argv, "nook-lab",
-      "Compares Nook with other methods on the scenes and characters of the documents.\n"
-      "Exit codes: 0 done, 2 bad arguments, 3 bad input, 1 anything else.",
+      "Compares Nook with other methods, on the scenes and characters of the documents.\nExit codes: 0 "
+      "success, 2 bad arguments, 3 bad input, 1 any other error.",
       add_commands);
 }

@@ -32,24 +32,26 @@ class Peers : public tool::MaterialPeers {
     command
         .add_option(
             "--methods", methods_,
-            "methods to compare with the file, separated by commas: n-svd, cta, k-cta-2, k-cta-3 and k-cta-4 "
-            "have the ranks of the file; n-svd-filled and pca have the size of the whole file; pbr uses "
-            "material maps with parallax; neural trains a small network and one of the size of the whole "
-            "file, which takes minutes; none compares with nothing. Default: all but neural")
+            "compare the file with these methods; separate them by commas. n-svd, cta, k-cta-2, k-cta-3 and "
+            "k-cta-4 have the same ranks as the file. n-svd-filled and pca have the same size in bytes. pbr "
+            "uses material maps with parallax. neural trains two networks for minutes: a small one, and one "
+            "of the same size as the file. none compares with nothing. Default: all but neural")
         .delimiter(',')
         .check(tool::one_of(choices()))
         .type_name("NAME,...");
     command
         .add_option("--votf-refits", votf_refits_,
-                    "number of additional fits of the visibility for the other methods, as in --votf-refits "
-                    "of bake material")
+                    "for the other methods: number of additional fits of the visibility, like --votf-refits "
+                    "of `nook bake material`")
         .check(tool::in_range(0, 16))
         .capture_default_str();
     command.add_flag("--compare-seeding", seeding_,
-                     "compare CTA and K-CTA when the first clusters are chosen by directions and by values");
+                     "also compare two ways to group views into the first clusters, for CTA and K-CTA: by "
+                     "directions and by values");
     command
         .add_option("--sweep", sweep_,
-                    "measure all methods at these total view ranks; --images plots the results")
+                    "also measure all methods at these view ranks (of all clusters together); separate them "
+                    "by commas. --images plots the results")
         .delimiter(',');
   }
 

@@ -41,8 +41,10 @@ Json evaluate_tuning(const EvaluateNnaoOptions& options) {
   for (const TunedBaseline& t : tuned) {
     std::fputs(tuning_line(t.method).c_str(), stdout);
     for (const std::string& axis : t.at_edge)
-      std::fprintf(stderr, "%s %d: the best %s is the last of its grid\n", baseline_name(t.method.baseline),
-                   t.method.taps, axis.c_str());
+      std::fprintf(stderr,
+                   "%s with %d taps: the best value of %s is at the end of its range, so a better one may "
+                   "lie beyond\n",
+                   baseline_name(t.method.baseline), t.method.taps, axis.c_str());
     report["rows"].push_back({{"method", baseline_name(t.method.baseline)},
                               {"taps", t.method.taps},
                               {"radius_scale", t.method.tuning.radius_scale},
@@ -90,9 +92,9 @@ void run(EvaluateNnaoOptions& options) {
 void add_evaluate_nnao(Command evaluate_command) {
   const Command command = evaluate_command.add_subcommand(
       "nnao",
-      "compare the screen-space pass and other methods with ray tracing.\nThe other methods are SSAO, SSAO+, "
-      "HBAO, GTAO, GTAO with a visibility bitmask, XeGTAO, and the methods that N8AO, Godot, VTK, QGIS and "
-      "Filament contain.");
+      "compare Nook's screen-space pass (NNAO) and other methods with ray tracing.\nThe other methods are "
+      "SSAO, SSAO+, HBAO, GTAO, GTAO with a visibility bitmask, XeGTAO, and the methods of N8AO, Godot, VTK, "
+      "QGIS and Filament.");
   const auto options = std::make_shared<EvaluateNnaoOptions>();
   add_options(command, *options);
   command.callback([options] { run(*options); });

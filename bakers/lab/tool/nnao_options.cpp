@@ -52,8 +52,8 @@ void check_options(const EvaluateNnaoOptions& options) {
                     int(!options.movers.empty());
   if (works != 1)
     throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: nothing to do; give scenes (files, --views "
-                    "or --thin), or --frame, --mover or --tune");
+                    "evaluate nnao: give exactly one thing to measure: scenes (files, --views or --thin), "
+                    "--frame, --mover or --tune");
   if (!options.frames.empty() &&
       (!options.markdown.empty() || !options.scenes.cameras.empty() || !options.scenes.radii.empty()))
     throw ToolError(exit_bad_arguments,
@@ -62,7 +62,7 @@ void check_options(const EvaluateNnaoOptions& options) {
   check_movers(options);
   if (options.intensity != 1 && (!has_scenes || options.bent || options.temporal))
     throw ToolError(exit_bad_arguments,
-                    "evaluate nnao: --intensity is only for the AO of single frames of scenes");
+                    "evaluate nnao: --intensity works only for the AO of single frames of scenes");
   if (options.temporal &&
       ((!has_scenes && options.movers.empty()) || options.bent || !options.methods.empty() ||
        !options.network.empty() || !options.ratios.empty() || (has_scenes && !options.images.empty())))
@@ -76,56 +76,61 @@ void check_options(const EvaluateNnaoOptions& options) {
 }
 
 void add_options(Command command, EvaluateNnaoOptions& options) {
-  command.add_input(
-      "scene", options.scenes.files,
-      "scenes in metres, y up, .glb or .gltf files; with more than one, the means are reported too");
+  command.add_input("scene", options.scenes.files,
+                    "scenes to measure: .glb or .gltf files in metres, y up. With several scenes, the report "
+                    "also has the means over them");
   add_import_options(command, options.scenes.reading);
   command.add_input(
       "--views", options.views,
-      "list of scenes and their cameras, such as docs/nnao_views.json, to measure instead of files");
+      "measure the scenes and cameras of this list instead of files, such as docs/nnao_views.json");
   command.add_option("--folder", options.folder,
-                     "folder with the scenes of --views, each as NAME.glb; default: the current folder");
+                     "with --views: folder that contains the scenes of the list, each as NAME.glb. Default: "
+                     "the current folder");
   command
       .add_option("--sources", options.sources,
-                  "measure only scenes from these sources in the list of --views, separated by commas")
+                  "with --views: measure only the scenes of the list that come from these sources; separate "
+                  "their names by commas")
       .delimiter(',');
   command.add_flag("--thin", options.scenes.thin,
-                   "also measure a built-in scene of thin objects, called thin; means leave it out");
+                   "also measure the built-in scene `thin`, which has thin objects. The means over scenes do "
+                   "not include it");
   command
       .add_input("--frame", options.frames,
-                 "recorded frame, a file that nook_nnao_record wrote, to draw again instead of scenes and to "
-                 "compare with the recorded AO and the oracle; you can repeat the option")
+                 "instead of scenes, measure this recorded frame, a file that nook_nnao_record wrote. Its AO "
+                 "is drawn again, and compared with the recorded AO and with the exact AO of its depth "
+                 "buffer (oracle). You can repeat the option")
       .type_name("FILE.nook");
   std::vector<std::string> baselines{"all"};
   for (const Baseline baseline : all_baselines) baselines.push_back(baseline_name(baseline));
   command
       .add_option("--tune", options.tune,
-                  "tune one baseline method, or all, on training scenes, and print the tuned parameters "
-                  "instead of errors")
+                  "instead of measuring, find the best parameters of this other method, or of all, on "
+                  "training scenes, and print them")
       .check(one_of(baselines));
   command
       .add_option("--camera", options.scenes.cameras,
-                  "camera as [SCENE:]ox,oy,oz,tx,ty,tz,fov: eye, target and vertical field of view in "
-                  "degrees; you can repeat the option. SCENE is the name of a file without .glb, or thin; "
-                  "without SCENE, the camera is for every scene")
+                  "add a camera, as [SCENE:]ox,oy,oz,tx,ty,tz,fov: eye and target in metres, and vertical "
+                  "field of view in degrees. SCENE is the name of a file without .glb, or thin; without "
+                  "SCENE, the camera is for every scene. You can repeat the option")
       .type_name("CAMERA");
   command
       .add_option("--cameras", options.placed_cameras,
-                  "number of cameras to place in each scene for which you give none")
+                  "number of cameras to place in a scene for which you give no --camera")
       .check(in_range(1, 1000))
       .capture_default_str();
   command
-      .add_option("--radius", options.scenes.radii, "radius of the AO in metres, as [SCENE:]R; default 0.5")
+      .add_option("--radius", options.scenes.radii,
+                  "radius of AO in metres, as R for all scenes or SCENE:R for one. Default: 0.5")
       .type_name("RADIUS");
   command
       .add_option("--max-radius-px", options.max_radius_px,
-                  "largest radius in pixels; every method shrinks a radius that covers more pixels. 0 means "
-                  "half the height of the picture")
+                  "largest radius of AO in pixels. Every method shrinks a radius that covers more pixels. 0 "
+                  "(default) means half the height of the picture")
       .check(in_range(0.0, 1e4));
   command
-      .add_option(
-          "--intensity", options.intensity,
-          "nook_nnao_frame_desc.intensity for Nook's filtered pass; other methods have no such setting")
+      .add_option("--intensity", options.intensity,
+                  "intensity of AO in Nook's pass with its filter (nook_nnao_frame_desc.intensity). Other "
+                  "methods have no such setting")
       .check(in_range(0.0, 16.0))
       .capture_default_str();
   command
@@ -135,15 +140,17 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
             parse_size(text, options.truth);
             options.sized = true;
           },
-          "size of a picture in pixels; default 640x360, or as in the list of --views")
+          "size of a picture in pixels. Default: 640x360, or the size in the list of --views")
       .type_name("WxH");
   command
-      .add_option("--rays", options.truth.rays, "rays per pixel; default 128, or as in the list of --views")
+      .add_option("--rays", options.truth.rays,
+                  "number of rays per pixel of the ray-traced reference. Default: 128, or the number in the "
+                  "list of --views")
       .check(in_range(1, 65536))
       .each([&options](const std::string&) { options.rays_given = true; });
   command.add_option(
       "--references", options.references,
-      "folder that keeps ray-traced references; a reference that is already there is not traced again");
+      "keep the ray-traced references in this folder. A reference that is already there is not traced again");
   std::vector<std::string> methods{"all", "nnao", half_name, twice_name, "nnao_paper", "nnao_file"};
   methods.insert(methods.end(), baselines.begin() + 1, baselines.end());
   for (const BaselineMethod& method : baseline_methods())
@@ -151,46 +158,50 @@ void add_options(Command command, EvaluateNnaoOptions& options) {
   for (const Oracle oracle : all_oracles) methods.push_back(oracle_name(oracle));
   for (const std::string& name : frame_method_names()) methods.push_back(name);
   command
-      .add_option(
-          "--methods", options.methods,
-          "measure only these methods, each as NAME or NAME:TAPS, separated by commas; default: all but the "
-          "slow oracle and oracle_bitmask; with --frame: replayed, fast, default, best and oracle")
+      .add_option("--methods", options.methods,
+                  "measure only these methods; separate them by commas. Each is NAME, or NAME:TAPS for a "
+                  "number of taps. Default: all but oracle and oracle_bitmask, which are slow; with --frame: "
+                  "replayed, fast, default, best and oracle")
       .delimiter(',')
       .check([methods](const std::string& text) { return one_of(methods)(text.substr(0, text.find(':'))); });
   command
       .add_option("--ratio", options.ratios,
-                  "also report the ratio between the errors of two methods, with its bounds; give "
-                  "METHOD:TAPS,METHOD:TAPS; you can repeat the option")
+                  "also report the error of the first method divided by the error of the second, with "
+                  "bounds. Give METHOD:TAPS,METHOD:TAPS. You can repeat the option")
       .type_name("RATIO");
   command.add_flag("--bent-normals", options.bent,
-                   "measure bent normals and specular occlusion instead of AO, at every 16th pixel");
+                   "instead of AO, measure bent normals and specular occlusion, at every 16th pixel");
   command.add_flag(
       "--temporal", options.temporal,
-      "measure AO that is averaged over the frames of a moving camera, instead of AO of single frames");
+      "instead of AO of single frames, measure AO that is averaged over the frames of a moving camera");
   command
       .add_option("--path-step", options.truth.path.step_px,
-                  "with --temporal: number of pixels per frame by which a surface at the median depth moves; "
-                  "0 means that the camera stands still")
+                  "with --temporal: speed of the camera, as the number of pixels per frame by which a "
+                  "surface at the median depth moves. With 0, the camera stands still")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
   command
       .add_input("--mover", options.movers,
-                 "with --temporal: measure this character, which walks in front of a wall, instead of "
-                 "scenes; a .glb or .gltf file with clips; you can repeat the option")
+                 "with --temporal: instead of scenes, measure this character, which walks in front of a "
+                 "wall. Give a .glb or .gltf file with clips. You can repeat the option")
       .type_name("FILE");
   command.add_option("--clip", options.clip,
-                     "clip that the character of --mover plays; default: the first clip with walk in its "
-                     "name, or else the first clip");
-  command.add_option("--walk-speed", options.walk_speed, "walking speed of --mover in metres per second")
+                     "with --mover: clip that the character plays. Default: the first clip with walk in its "
+                     "name, or the first clip if there is none");
+  command
+      .add_option("--walk-speed", options.walk_speed,
+                  "with --mover: walking speed of the character in metres per second")
       .check(in_range(0.0, 100.0))
       .capture_default_str();
   command.add_flag("!--no-raw", options.raw,
-                   "measure each method only with the blur that belongs to it, not without blur");
-  command.add_input("--network", options.network,
-                    "also measure this network, a file that `nook train nnao` wrote");
+                   "measure each method only with its own blur. By default, each method is measured with and "
+                   "without its blur");
+  command.add_input(
+      "--network", options.network,
+      "also measure the screen-space pass with this network, a file that `nook train nnao` wrote");
   command.add_option(
       "--images", options.images,
-      "write a sheet of pictures for each view, and pictures of the networks, into this folder");
+      "write PNG files into this folder: a sheet of pictures for each view, and pictures of the networks");
   command.add_option("--markdown", options.markdown, "write the tables of docs/lab/nnao.md to this file");
   add_common_options(command, options.common);
 }

@@ -16,10 +16,11 @@ class Peers : public tool::ProbePeers {
  public:
   void add_options(tool::Command command) override {
     command.add_flag("--glossy", glossy_,
-                     "for maps: compare the lobes with prefiltered cube maps on random glossy surfaces, "
-                     "instead of comparing methods of fitting");
+                     "for maps: instead of comparing ways to fit a probe, compare the light of its lobes "
+                     "with prefiltered cube maps, on random glossy surfaces");
     command
-        .add_option("--surfaces", surfaces_.surfaces, "with --glossy: number of random surfaces of each kind")
+        .add_option("--surfaces", surfaces_.surfaces,
+                    "with --glossy: number of random surfaces to measure for each kind of surface")
         .check(tool::in_range(1u, 1u << 20))
         .capture_default_str();
   }

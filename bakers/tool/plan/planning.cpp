@@ -112,7 +112,7 @@ void recheck(const PlanPlaces& places, const States& states, std::int64_t began_
   if (same) return;
   const fs::path ninja = places.build / "build.ninja";
   fs::last_write_time(ninja, fs::last_write_time(ninja) - std::chrono::nanoseconds(now_ns() - began_ns));
-  std::fprintf(stderr, "nook: files changed while they were read; plan again\n");
+  std::fprintf(stderr, "nook: files changed while the plan read them; run the command again\n");
 }
 
 struct Counts {
@@ -165,31 +165,36 @@ std::string report_text(const std::vector<Job>& jobs, const States& states) {
 }  // namespace
 
 void add_plan_options(Command command, PlanOptions& o) {
-  command.add_option("manifest", o.manifest, "the manifest, such as nook.json (docs/guide/pipeline.md)")
+  command
+      .add_option("manifest", o.manifest,
+                  "the manifest: a JSON file with the rules for all bakes, such as nook.json "
+                  "(docs/guide/pipeline.md)")
       .required();
+  command.add_option("--build", o.build,
+                     "write build.ninja, tasks.txt, keys and logs into this folder. Default: nook-build, "
+                     "beside the manifest");
   command.add_option(
-      "--build", o.build,
-      "folder for build.ninja, tasks.txt, keys and logs; default nook-build beside the manifest");
-  command.add_option("--cache", o.cache,
-                     "the folder of bake --cache: the plan copies the results that it contains, and bakes "
-                     "store their results in it; default: the environment variable NOOK_CACHE, if set");
+      "--cache", o.cache,
+      "use this folder as the cache: results that it contains are copied, and new bakes store their results "
+      "in it. Default: the folder in the environment variable NOOK_CACHE; no cache if it is not set");
   command
       .add_option("--isa", o.isa,
-                  "the instruction set of all bakes: x86-64-v2, x86-64-v3 (default on x86-64) or native; "
-                  "another instruction set gives other keys")
+                  "processor instruction set of all bakes: x86-64-v2, x86-64-v3 (default on x86-64 "
+                  "processors) or native (the best set of this processor). Another instruction set gives "
+                  "other keys, so everything is baked again")
       .check(one_of({"native", "x86-64-v2", "x86-64-v3"}));
   command
       .add_option("--threads", o.threads,
-                  "number of assets that are read at the same time; 0 means one per core")
+                  "number of assets that are read at the same time; 0 means one asset per core")
       .check(in_range(0, 1024))
       .capture_default_str();
   command
       .add_option("--bake-threads", o.bake_threads,
-                  "number of threads of each bake; 0 means one thread in tasks.txt and, under Ninja, the "
-                  "number of cores divided by the number of bakes to run")
+                  "number of threads of each bake. 0 means one thread in tasks.txt; in build.ninja, it means "
+                  "the number of cores divided by the number of bakes to run")
       .check(in_range(0, 1024))
       .capture_default_str();
-  command.add_option("--report", o.report, "write a JSON file with the state of every bake");
+  command.add_option("--report", o.report, "write the state of every bake to this JSON file");
   command.add_flag("--quiet", o.quiet, "print errors only");
 }
 

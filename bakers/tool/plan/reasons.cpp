@@ -72,7 +72,7 @@ std::string reason_of(const Job& job, const std::string& identity, const std::st
   if (there.empty())
     return "the output has no key, because an earlier version baked it or it is not a baked file";
   const Json old = Json::parse(there, nullptr, false), now = Json::parse(identity, nullptr, false);
-  if (!old.is_object() || !now.is_object()) return "the key of its output is damaged";
+  if (!old.is_object() || !now.is_object()) return "the key in its output is damaged";
   std::string reasons;
   const std::string inputs = differing(old.value("inputs", Json()), now["inputs"]);
   if (!inputs.empty()) add(reasons, "input changed: " + job.source + " (" + inputs + ")");
@@ -80,7 +80,7 @@ std::string reason_of(const Job& job, const std::string& identity, const std::st
   if (!settings.empty()) add(reasons, "options changed: " + settings);
   const std::string tool = bake::difference_from_this_tool({there});
   if (!tool.empty()) add(reasons, "other tool: " + tool);
-  return reasons.empty() ? "another kind of bake" : reasons;
+  return reasons.empty() ? "its output comes from another kind of bake" : reasons;
 }
 
 double estimate_s(const Job& job, const std::vector<StampedFile>& read) {

@@ -108,7 +108,7 @@ std::optional<report::LastPage> last_page(const ReportAllOptions& options, const
   std::optional<report::LastPage> last =
       report::read_overview_page({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   const std::string fault =
-      path.string() + ": is not a page of nook report --all, or another version of Nook wrote it";
+      path.string() + ": is not a page of `nook report --all` that this version can read";
   if (!last && is_named) throw ToolError(exit_bad_input, fault);
   if (!last)
     std::fprintf(stderr, "nook: %s\n", platform::printable(fault + "; changes are not shown").c_str());
