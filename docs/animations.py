@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Makes the animations of the documents, docs/*.webp, from pictures that programs of a build draw.
 
-  animations.py BUILD [NAME ...]      all of them, or those named; BUILD is a build folder with -DNOOK_LAB=ON
+  animations.py BUILD [NAME ...]      makes the animations with these names, or all of them
 
-Needs python3-pil and fonts-dejavu-core of Debian. Each animation names the commands that draw its pictures; they need
-no display. Pictures stay in BUILD/animations, and what is there already is not drawn again.
+BUILD is a build folder that was configured with -DNOOK_LAB=ON. The programs that draw need no display. Their pictures are kept in
+BUILD/animations, and a picture that is already there is not drawn again. The script needs the Debian packages python3-pil and
+fonts-dejavu-core.
 """
 import pathlib
 import subprocess

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Runs the checks of whole platforms and writes commit and date of each into the table of docs/platforms.md.
+"""Runs scripts that check a whole platform, and writes the commit and the date of each run into the table of docs/platforms.md.
 
-  platforms_run.py SCRIPT...     installs the packages, runs the script, such as tests/hosts.sh, in full, and writes its row
-  platforms_run.py all           all of them
-  platforms_run.py --check       fails for each row of the committed table that is not a run of the committed tree
+  platforms_run.py SCRIPT...     installs the packages of a script, such as tests/hosts.sh, runs it, and writes its row of the table
+  platforms_run.py all           does this for all scripts
+  platforms_run.py --check       fails if a row of the committed table belongs to another tree than the committed one
 
-Commit your changes first: a row names a commit. Then commit the table. A row stays valid while nothing but docs/platforms.md
-changes. packaging/release.sh begins with the check.
+Commit your changes first, because a row contains the commit. Commit the table afterwards. A row stays valid as long as only
+docs/platforms.md changes. packaging/release.sh begins with --check.
 """
 import argparse
 import datetime
@@ -115,8 +115,8 @@ def check():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("scripts", nargs="*", metavar="SCRIPT")
-    parser.add_argument("--check", action="store_true", help="check the committed table")
+    parser.add_argument("scripts", nargs="*", metavar="SCRIPT", help="the scripts to run, or all")
+    parser.add_argument("--check", action="store_true", help="run nothing; check the committed table")
     options = parser.parse_args()
     scripts = list(SCRIPTS) if options.scripts == ["all"] else options.scripts
     for script in scripts:

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
-"""Writes raw materials, which `nook bake material --raw` compresses. docs/materials.md describes the bytes.
+"""Writes a raw (uncompressed) material, which `nook bake material --raw` compresses.
 
-    raw_material.py hills.raw [--directions 25] [--texels 32]     # an example: matt hills, without shadows
+    raw_material.py hills.raw [--directions 25] [--texels 32]
 
-It needs numpy alone. With the Python module xxhash or the library libxxhash checksums are faster.
+Run as a program, it writes an example: matt hills, without shadows. To write your own material, import this file and call its
+function write(). docs/materials.md describes the format. The script needs only numpy. It computes checksums faster if the Python
+module xxhash or the library libxxhash is installed.
 """
 import argparse
 import ctypes
@@ -156,9 +158,9 @@ def hills(texels, lights):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("output", help="the raw material to write")
-    parser.add_argument("--directions", type=int, default=25)
-    parser.add_argument("--texels", type=int, default=32, help="texels along a side")
+    parser.add_argument("output", help="write the raw material to this file")
+    parser.add_argument("--directions", type=int, default=25, help="number of view directions, which are also the light directions; default 25")
+    parser.add_argument("--texels", type=int, default=32, help="number of texels along a side of the material; default 32")
     options = parser.parse_args()
     directions = spiral_directions(options.directions)
     one_view = hills(options.texels, directions)

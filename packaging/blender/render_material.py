@@ -1,10 +1,11 @@
-"""Renders a tile of a scene from many views under many lights into a raw material for `nook bake material --raw`.
+"""Renders a tile of a Blender scene from many views under many lights, and writes a raw material for `nook bake material --raw`.
 
     blender -b SCENE.blend --python render_material.py -- TILE.raw [--tile-size 1] [--directions 49] [--texels 48]
 
-The tile is the square from (0, 0) to (tile size, tile size) of the plane z = 0, z up, in metres; what lies higher or lower
-moves with the view. Everything that is rendered is repeated around the tile (--repeats); lights, cameras and the world of
-the scene are left out. Cycles renders, with the scene's own settings of bounces. raw_material.py lies beside this file.
+The tile is a square on the plane z = 0 (z up), from (0, 0) to (tile size, tile size) in metres. Parts above or below this plane
+shift with the view. The script repeats everything that the scene renders around the tile (--repeats). It removes the lights,
+the cameras and the world of the scene. It renders with Cycles, with the bounces that the scene sets. It needs raw_material.py in
+the same folder.
 """
 import argparse
 import pathlib
@@ -127,14 +128,14 @@ def filled(seen):
 def read_options():
     parser = argparse.ArgumentParser(prog="render_material.py", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("output", type=pathlib.Path, help="the raw material to write")
-    parser.add_argument("--tile-size", type=float, default=1, help="side of the tile in metres")
-    parser.add_argument("--directions", type=int, default=49, help="number of view directions, and of light directions without --lights")
-    parser.add_argument("--lights", type=int, default=0)
-    parser.add_argument("--max-tilt", type=float, default=75, help="largest angle between a direction and the normal, in degrees")
-    parser.add_argument("--texels", type=int, default=48, help="texels along a side")
-    parser.add_argument("--samples", type=int, default=64, help="paths per texel")
-    parser.add_argument("--repeats", type=int, default=1, help="copies on either side of the tile; 0 if the scene already repeats")
+    parser.add_argument("output", type=pathlib.Path, help="write the raw material to this file")
+    parser.add_argument("--tile-size", type=float, default=1, help="side of the tile in metres; default 1")
+    parser.add_argument("--directions", type=int, default=49, help="number of view directions to render; without --lights, also the number of light directions. Default 49")
+    parser.add_argument("--lights", type=int, default=0, help="number of light directions to render; 0 (default) uses the view directions as light directions")
+    parser.add_argument("--max-tilt", type=float, default=75, help="largest angle in degrees between the normal (+z) and a view or light direction; default 75")
+    parser.add_argument("--texels", type=int, default=48, help="number of texels along a side of the tile; default 48")
+    parser.add_argument("--samples", type=int, default=64, help="number of paths per texel that Cycles traces; default 64")
+    parser.add_argument("--repeats", type=int, default=1, help="number of copies of the scene on each side of the tile; 0 if the scene already repeats. Default 1")
     return parser.parse_args(sys.argv[sys.argv.index("--") + 1:] if "--" in sys.argv else [])
 
 

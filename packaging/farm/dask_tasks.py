@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""Runs the lines of a file of commands as tasks of a Dask cluster.
+"""Runs each line of a file as a shell command on a Dask cluster.
 
 dask_tasks.py TASKS SCHEDULER-ADDRESS
 
-Each line runs in a shell on a worker, once: a line that fails is not tried again, but a line whose worker dies goes to another
-one. Start workers with `--resources bake=N`, for N lines at once. Prints a line for each failure, and ends with exit code 1 if
-there is one."""
+TASKS is a file with one command per line, such as the tasks.txt of `nook plan`. SCHEDULER-ADDRESS is the address of the Dask
+scheduler, such as tcp://10.0.0.1:8786. A command that fails is not run again. If a worker dies, its command runs on another worker.
+Start each worker with `--resources bake=N`; it then runs N commands at the same time. The script prints each command that
+fails, with its output. Its exit code is 1 if a command failed, and 0 otherwise."""
 import subprocess
 import sys
 import time
@@ -36,7 +37,7 @@ def main():
                 failed += 1
                 print(f"exit code {code}: {line_of[task.key]}\n{output}", end="", flush=True)
             left_s = (time.monotonic() - started) / done * (len(lines) - done)
-            print(f"{done} of {len(lines)} done, {failed} failed, about {left_s:.0f} s left", file=sys.stderr, flush=True)
+            print(f"{done} of {len(lines)} commands done, {failed} failed, about {left_s:.0f} s left", file=sys.stderr, flush=True)
     sys.exit(1 if failed else 0)
 
 

@@ -45,36 +45,43 @@ int parse(int argc, char** argv, Options& o) {
   CLI::App app("Draws a crowd of animated characters with Nook's ambient occlusion.");
   // The last of several values wins, so that the caller of a script can override its values.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.add_option("hero", o.hero_glb, "rigged character, a .glb or .gltf file; default: a built-in character")
+  app.add_option("hero", o.hero_glb,
+                 "the rigged character, a .glb or .gltf file. Default: a built-in character")
       ->check(CLI::ExistingFile);
   app.add_option("model", o.hero_nook,
-                 "model that was baked from the character, a .nook file; default: bake one (draft preset) "
-                 "and cache it")
+                 "the model that was baked from the character, a .nook file. Default: the program bakes one "
+                 "with the draft preset, and keeps it for the next run")
       ->check(CLI::ExistingFile);
-  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+  app.add_option("--context", o.context,
+                 std::string("how to create the OpenGL context (default egl): ") + platform::context_kinds())
       ->check(CLI::IsMember({"window", "egl", "osmesa"}));
-  app.add_option("--characters", o.crowd.characters, "number of characters")->check(CLI::Range(1, 10000));
+  app.add_option("--characters", o.crowd.characters, "number of characters in the crowd. Default: 100")
+      ->check(CLI::Range(1, 10000));
   app.add_option("--neighbours", o.crowd.neighbours,
-                 "number of nearest neighbours that darken each character")
+                 "number of neighbours that darken each character, the nearest ones. Default: 4")
       ->check(CLI::Range(0, 16));
-  app.add_option("--frames", o.frames, "number of pictures to draw without a window")
+  app.add_option("--frames", o.frames, "number of pictures to draw if there is no window. Default: 4")
       ->check(CLI::Range(1, 100000));
-  app.add_option("--size", o.size, "size of a picture in pixels, WIDTHxHEIGHT");
-  app.add_option("--out", o.out, "folder to write the pictures into");
-  app.add_option("--tier", o.crowd.tier, "highest OpenGL tier: 33, 43 or best")
+  app.add_option("--size", o.size, "size of a picture in pixels, WIDTHxHEIGHT. Default: 1280x720");
+  app.add_option("--out", o.out, "write the pictures into this folder. Default: out/crowd");
+  app.add_option("--tier", o.crowd.tier,
+                 "highest OpenGL tier to use: 33 (OpenGL 3.3), 43 (4.3, compute shaders) or best. Default: "
+                 "best, the highest tier of the context")
       ->transform(CLI::CheckedTransformer(std::map<std::string, int>{{"33", 33}, {"43", 43}, {"best", 0}}));
-  app.add_option("--seed", o.seed, "seed of the positions in the crowd");
+  app.add_option("--seed", o.seed, "seed of the random positions of the characters. Default: 1");
   app.add_option("--debug", o.window.debug,
-                 "what the window shows at the start, separated by commas: spheres, links")
+                 "with --context window: show the proxy spheres (spheres) or the links between bodies "
+                 "(links) at the start; separate them by commas")
       ->delimiter(',')
       ->check(CLI::IsMember({"spheres", "links"}))
       ->allow_extra_args(false)  // what follows are files
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--debug-bodies", o.window.bodies, "number of bodies whose spheres are shown")
+  app.add_option("--debug-bodies", o.window.bodies,
+                 "with --debug spheres: number of bodies whose spheres are shown. Default: 1")
       ->check(CLI::Range(1, 16));
   app.add_option("--window-picture", o.window.picture,
-                 "write a picture of the window to this file, then close the window");
-  app.add_flag("--quiet", o.quiet, "show no progress");
+                 "with --context window: write a picture of the window to this file, then close the window");
+  app.add_flag("--quiet", o.quiet, "do not show progress");
   try {
     app.parse(argc, argv);
     char rest = 0;

@@ -27,19 +27,22 @@ struct Options {
 bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   CLI::App app("Shows an animated glTF character with Nook's ambient occlusion.");
   std::string size = "960x720";
-  app.add_option("character", o.character, "rigged character, a .glb or .gltf file")
+  app.add_option("character", o.character, "the rigged character, a .glb or .gltf file")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("model", o.model, "model of the character, which `nook bake character` wrote")
+  app.add_option("model", o.model,
+                 "the model of the character, a .nook file that `nook bake character` wrote")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("--clip", o.clip, "name of a clip; default: the first in the file");
-  app.add_option("--without", o.without, "names of nodes that the bake left out with --without")
+  app.add_option("--clip", o.clip, "name of the clip to play. Default: the first clip of the file");
+  app.add_option("--without", o.without,
+                 "name of a node that the bake left out with its option --without. You can repeat the option")
       ->allow_extra_args(false);
-  app.add_option("--frames", o.frames, "number of pictures, spread over the clip")
+  app.add_option("--frames", o.frames,
+                 "with --out: number of pictures to draw, spread over the clip. Default: 1")
       ->check(CLI::Range(1, 100000));
-  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT");
-  app.add_option("--out", o.out, "folder to write pictures into; default: open a window instead");
+  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT. Default: 960x720");
+  app.add_option("--out", o.out, "write pictures into this folder. Default: open a window instead");
   try {
     app.parse(argc, argv);
     char rest = 0;

@@ -44,24 +44,28 @@ nook_gl_state_mode Options::state_mode() const {
 bool parse_options(const char* name, int argc, char** argv, Options& o, int& exit_code) {
   CLI::App app(std::string(name) + " draws one picture of a glTF character with Nook's ambient occlusion.");
   std::string size = "640x480";
-  app.add_option("character", o.character, "rigged character, a .glb file with one skin")
+  app.add_option("character", o.character, "the rigged character, a .glb file with one skin")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("model", o.model, "model of the character, which `nook bake character` wrote")
+  app.add_option("model", o.model,
+                 "the model of the character, a .nook file that `nook bake character` wrote")
       ->required()
       ->check(CLI::ExistingFile);
-  app.add_option("--clip", o.clip, "name of a clip; default: the first in the file");
+  app.add_option("--clip", o.clip,
+                 "name of the clip whose pose is drawn. Default: the first clip of the file");
   app.add_option("--path", o.path,
-                 "where Nook evaluates the vertices; none draws without Nook. In nook_host_vtk also vtk and "
-                 "traced: VTK's own AO pass, and VTK's ray tracer")
+                 "where the AO comes from: gpu (default, Nook on the GPU), cpu (Nook on the CPU) or none (no "
+                 "AO). nook_host_vtk also has vtk (VTK's own AO pass) and traced (VTK's ray tracer)")
       ->check(CLI::IsMember({"gpu", "cpu", "none", "vtk", "traced"}));
-  app.add_option("--show", o.show, "what the picture shows: lit, plain (the shader does not read AO) or ao")
+  app.add_option("--show", o.show,
+                 "what the picture shows: lit (default), plain (lit, but the shader does not read AO) or ao")
       ->check(CLI::IsMember({"lit", "plain", "ao"}));
-  app.add_option("--state", o.state, "how Nook treats OpenGL state (nook_gl_state_mode)")
+  app.add_option("--state", o.state,
+                 "how Nook treats the OpenGL state of the host (nook_gl_state_mode). Default: preserve")
       ->check(CLI::IsMember({"preserve", "defaults", "host"}));
   app.add_flag("--orthographic", o.orthographic, "use a parallel projection; only in nook_host_vtk");
-  app.add_option("--size", size, "size of the picture in pixels, WIDTHxHEIGHT");
-  app.add_option("--out", o.out, "the picture to write, a .png file")->required();
+  app.add_option("--size", size, "size of the picture in pixels, WIDTHxHEIGHT. Default: 640x480");
+  app.add_option("--out", o.out, "write the picture to this .png file")->required();
   try {
     app.parse(argc, argv);
     char rest = 0;

@@ -11,33 +11,36 @@
 namespace material {
 
 bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
-  CLI::App app("Draws baked materials on several shapes, under a moving light and view.");
+  CLI::App app("Draws baked materials on several shapes, while the light and the view move.");
   std::string size = "960x540";
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.add_option("materials", o.files, ".nook files of `nook bake material`")
+  app.add_option("materials", o.files, "the materials to draw, .nook files that `nook bake material` wrote")
       ->required()
       ->check(CLI::ExistingFile)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+  app.add_option("--context", o.context,
+                 std::string("how to create the OpenGL context (default egl): ") + platform::context_kinds())
       ->check(CLI::IsMember({"window", "egl", "osmesa"}));
-  CLI::Option* const frames =
-      app.add_option(
-             "--frames", o.frames,
-             "number of pictures of each material; with --context window, 0 runs until you close the window")
-          ->check(CLI::Range(0, 100000));
-  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT");
-  app.add_option("--tile", o.tile_m, "side of one tile of the material on the shapes, in metres")
+  CLI::Option* const frames = app.add_option("--frames", o.frames,
+                                             "number of pictures to draw of each material. Default: 6. With "
+                                             "--context window, 0 (default) draws until you close the window")
+                                  ->check(CLI::Range(0, 100000));
+  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT. Default: 960x540");
+  app.add_option("--tile", o.tile_m,
+                 "side of one tile of the material on the shapes, in metres. Default: 0.16")
       ->check(CLI::Range(0.01f, 1.0f));
   app.add_option("--fetches", o.fetches,
-                 "number of fetches of each mode along the longer side of a pixel; more fetches keep the "
-                 "picture sharp at grazing angles. 0 means one fetch, at the mipmap level of the longer side")
+                 "number of texture fetches of each mode along the longer side of a pixel. More fetches keep "
+                 "the picture sharp at grazing angles. 0 means one fetch, at the mipmap level of the longer "
+                 "side. Default: 2")
       ->check(CLI::Range(0, int(NOOK_MATERIAL_MAX_FETCHES)));
   app.add_flag("--one-sided", o.is_one_sided,
                "do not draw the insides of the shapes, which are visible through holes");
-  app.add_option("--out", o.out, "folder to write the pictures into");
-  app.add_option("--report", o.report,
-                 "JSON file to write sizes, fetches and times to; default: report.json in --out");
-  app.add_flag("--quiet", o.quiet, "show no progress");
+  app.add_option("--out", o.out, "write the pictures into this folder. Default: out/material");
+  app.add_option(
+      "--report", o.report,
+      "write sizes, fetches and times to this JSON file. Default: report.json in the folder of --out");
+  app.add_flag("--quiet", o.quiet, "do not show progress");
   try {
     app.parse(argc, argv);
     char rest = 0;

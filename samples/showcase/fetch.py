@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Fetches the characters and props of yard.json, and checks the SHA-256 of every file.
+"""Downloads the characters and props of the stage yard.json, and checks the SHA-256 of every file.
 
   fetch.py FOLDER [--mirrors FOLDER]
 
-assets.json names each file, its repository and commit, its author and its licence. Only these files are downloaded.
+assets.json lists each file with its repository and commit, its author and its licence. Only these files are downloaded.
 """
 import argparse
 import json
@@ -18,8 +18,8 @@ from nnao_scenes import Files, Unusable  # reads files of a commit, and checks t
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path, help="folder to write the files into")
-    parser.add_argument("--mirrors", type=pathlib.Path, help="folder of git directories named owner+name, to read in place of the network")
+    parser.add_argument("folder", type=pathlib.Path, help="write the files into this folder")
+    parser.add_argument("--mirrors", type=pathlib.Path, help="read the files from this folder instead of the network; it contains a git directory named owner+name for each repository")
     options = parser.parse_args()
     options.assets = None  # all files are in repositories
     with tempfile.TemporaryDirectory() as scratch:

@@ -22,23 +22,40 @@ struct Options {
 };
 
 int parse(int argc, char** argv, Options& o) {
-  CLI::App app("Draws characters without occlusion, with Nook, and ray traced.");
-  app.add_option("--stage", o.stage, "a stage, a JSON file; default: the street corner")
+  CLI::App app(
+      "Draws a scene with characters three times: without occlusion, with Nook, and ray traced.\nGive "
+      "--stage with --assets and --models, or --character and --model for the built-in street corner.");
+  app.add_option("--stage", o.stage,
+                 "the stage: a JSON file that lists characters, props, light and cameras, such as yard.json. "
+                 "Default: the built-in street corner")
       ->check(CLI::ExistingFile);
-  app.add_option("--assets", o.assets, "folder of the stage's files")->check(CLI::ExistingDirectory);
-  app.add_option("--models", o.models, "folder of the characters' models")->check(CLI::ExistingDirectory);
-  app.add_option("--character", o.character, "the built-in character, for the street corner")
+  app.add_option("--assets", o.assets, "with --stage: folder that contains the glTF files of the stage")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--models", o.models,
+                 "with --stage: folder that contains the baked models of its characters")
+      ->check(CLI::ExistingDirectory);
+  app.add_option("--character", o.character, "for the street corner: the built-in character, a .glb file")
       ->check(CLI::ExistingFile);
-  app.add_option("--model", o.model, "the built-in character's model")->check(CLI::ExistingFile);
-  app.add_option("--shot", o.shot, "name of one of the stage's cameras");
-  app.add_option("--out", o.out, "folder for off.png, nook.png, traced.png and report.json");
-  app.add_option("--width", o.width_px, "of a picture in pixels")->check(CLI::Range(16, 4096));
-  app.add_option("--height", o.height_px, "of a picture in pixels")->check(CLI::Range(16, 4096));
-  app.add_option("--samples-across", o.samples_across, "samples of a pixel along each axis")
+  app.add_option("--model", o.model,
+                 "for the street corner: the baked model of the built-in character, a .nook file")
+      ->check(CLI::ExistingFile);
+  app.add_option("--shot", o.shot, "name of the camera of the stage. Default: whole");
+  app.add_option(
+      "--out", o.out,
+      "write off.png, nook.png, traced.png and report.json into this folder. Default: out/showcase");
+  app.add_option("--width", o.width_px, "width of a picture in pixels. Default: 1600")
+      ->check(CLI::Range(16, 4096));
+  app.add_option("--height", o.height_px, "height of a picture in pixels. Default: 900")
+      ->check(CLI::Range(16, 4096));
+  app.add_option("--samples-across", o.samples_across,
+                 "number of samples along each side of a pixel. Default: 2")
       ->check(CLI::Range(1, 4));
-  app.add_option("--rays", o.rays.sky, "rays to the sky for each sample")->check(CLI::Range(1, 65536));
-  app.add_option("--sun-rays", o.rays.sun, "rays to the sun for each sample")->check(CLI::Range(1, 65536));
-  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+  app.add_option("--rays", o.rays.sky, "number of rays to the sky for each sample. Default: 32")
+      ->check(CLI::Range(1, 65536));
+  app.add_option("--sun-rays", o.rays.sun, "number of rays to the sun for each sample. Default: 16")
+      ->check(CLI::Range(1, 65536));
+  app.add_option("--context", o.context,
+                 std::string("how to create the OpenGL context (default egl): ") + platform::context_kinds())
       ->check(CLI::IsMember({"egl", "osmesa"}));
   try {
     app.parse(argc, argv);

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Puts the pictures of the showcase together: the whole stage behind split lines, and its details below.
+"""Combines the pictures of the program showcase into one picture, SHEET. The whole stage is at the top, split by lines into parts
+without occlusion, with Nook and ray traced. Details are below.
 
-  sheet.py FOLDER SHEET     FOLDER has a folder for each shot, whole, feet and hands, with off.png, nook.png, traced.png
-                            and report.json
+  sheet.py FOLDER SHEET
 
-Needs python3-pil and fonts-dejavu-core of Debian.
+FOLDER contains a folder for each camera (whole, feet and hands) with the files off.png, nook.png, traced.png and report.json
+that showcase --out wrote. The script needs the Debian packages python3-pil and fonts-dejavu-core.
 """
 import json
 import pathlib

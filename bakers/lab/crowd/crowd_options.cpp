@@ -41,60 +41,69 @@ bool parse_options(int argc, char** argv, Options& o, int& exit_code) {
   // If an option is given several times, the last value is used. Callers of a script can thus override the
   // script's values.
   app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  app.add_option("hero", o.hero_glb, "rigged character, a .glb or .gltf file; default: a built-in character")
+  app.add_option("hero", o.hero_glb,
+                 "the rigged character, a .glb or .gltf file. Default: a built-in character")
       ->check(CLI::ExistingFile);
   app.add_option("model", o.hero_nook,
-                 "model that was baked from the character, a .nook file; default: bake one (draft preset) "
-                 "and cache it")
+                 "the model that was baked from the character, a .nook file. Default: the program bakes one "
+                 "with the draft preset, and keeps it for the next run")
       ->check(CLI::ExistingFile);
-  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+  app.add_option("--context", o.context,
+                 std::string("how to create the OpenGL context (default egl): ") + platform::context_kinds())
       ->check(CLI::IsMember({"egl", "osmesa"}));
-  app.add_option("--characters", o.crowd.characters, "number of characters")->check(CLI::Range(1, 10000));
+  app.add_option("--characters", o.crowd.characters, "number of characters in the crowd. Default: 100")
+      ->check(CLI::Range(1, 10000));
   app.add_option("--neighbours", o.crowd.neighbours,
-                 "number of nearest neighbours that darken each character")
+                 "number of neighbours that darken each character, the nearest ones. Default: 4")
       ->check(CLI::Range(0, 16));
-  app.add_option("--frames", o.frames, "number of pictures to draw")->check(CLI::Range(1, 100000));
-  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT");
-  app.add_option("--out", o.out, "folder to write the pictures into");
+  app.add_option("--frames", o.frames, "number of pictures to draw. Default: 4")
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--size", size, "size of a picture in pixels, WIDTHxHEIGHT. Default: 1280x720");
+  app.add_option("--out", o.out, "write the pictures into this folder. Default: out/crowd");
   app.add_option("--report", o.report,
-                 "JSON file to write times and errors to; default: report.json in --out");
-  app.add_option("--tier", tier, "highest OpenGL tier: 33, 43 or best")
+                 "write times and errors to this JSON file. Default: report.json in the folder of --out");
+  app.add_option("--tier", tier,
+                 "highest OpenGL tier to use: 33 (OpenGL 3.3), 43 (4.3, compute shaders) or best. Default: "
+                 "best, the highest tier of the context")
       ->check(CLI::IsMember({"33", "43", "best"}));
   app.add_option("--screen-space", screen_space,
-                 "on or off: also draw AO on the floor, from the screen pass and from the characters")
+                 "on (default): also draw AO on the floor, from the screen-space pass and from the "
+                 "characters. off: only AO on the characters")
       ->check(CLI::IsMember({"on", "off"}));
-  app.add_option("--light", o.lights,
-                 "probe (.nook) or environment map (.hdr, .exr). The first one lights the frames, and each "
-                 "one is compared with path tracing. You can repeat the option. Default: a built-in sky")
+  app.add_option(
+         "--light", o.lights,
+         "light: a probe (.nook) or an environment map (.hdr, .exr). The first one lights the pictures, and "
+         "each one is compared with path tracing. You can repeat the option. Default: a built-in sky")
       ->check(CLI::ExistingFile)
       ->allow_extra_args(false)  // so that the words after it are files
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("!--no-light", o.probe_light,
-               "light the frames with constant ambient light times AO, and a key light");
+               "do not use a light with directions; light the pictures with constant ambient light times AO, "
+               "and a key light");
   app.add_option("--record", o.record,
-                 "folder to record frames of the screen-space pass into, as frame_0000.nook and so on");
+                 "record the frames of the screen-space pass into this folder, as frame_0000.nook and so on");
   app.add_flag("--measure-world", o.measure_world,
                "compare the world pass in the last frame with a slow reference that evaluates every caster "
                "at every pixel");
   app.add_option("--debug", debug,
-                 "debug views to draw over the picture, separated by commas: spheres, key-points, links, "
-                 "levels, error")
+                 "draw these debug views over the pictures; separate them by commas: spheres, key-points, "
+                 "links (between bodies), levels (of detail), error (of AO)")
       ->delimiter(',')
       ->check(CLI::IsMember({"spheres", "key-points", "links", "levels", "error"}))
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_option("--debug-bodies", bodies,
-                 "number of bodies for which debug views show spheres, key points and errors; the bodies "
-                 "nearest to the camera are chosen")
+                 "with --debug: number of bodies, the nearest to the camera, whose spheres, key points and "
+                 "errors are shown. Default: 1")
       ->check(CLI::Range(1, 10000));
-  app.add_option(
-         "--lod-error", o.lod_error,
-         "largest error of a level of detail at 10 m, as root mean square of AO; 0 means always full detail")
+  app.add_option("--lod-error", o.lod_error,
+                 "largest error that a level of detail may have at 10 m from the camera, as root mean square "
+                 "of AO. 0 (default) means always full detail")
       ->check(CLI::Range(0.0f, 1.0f));
-  app.add_option("--seed", o.seed, "seed of positions, clips and rays");
-  app.add_option("--cache", o.cache, "folder that caches baked characters");
-  app.add_flag("!--no-sheets", o.sheets, "write no comparison sheets, and trace no rays except for --light");
-  app.add_flag("--quiet", o.quiet, "show no progress");
+  app.add_option("--seed", o.seed, "seed of the random positions, clips and rays. Default: 1");
+  app.add_option("--cache", o.cache, "keep baked characters in this folder");
+  app.add_flag("!--no-sheets", o.sheets, "do not write comparison sheets, and trace rays only for --light");
+  app.add_flag("--quiet", o.quiet, "do not show progress");
   try {
     app.parse(argc, argv);
     for (const std::string& fault : {parse_size(size, o), parse_tier(tier, o)})

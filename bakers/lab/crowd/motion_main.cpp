@@ -31,28 +31,35 @@ struct Options {
 };
 
 int parse(int argc, char** argv, Options& o) {
-  CLI::App app("Draws moving bodies without occlusion, with Nook, and ray traced.");
-  app.add_option("model", o.model, "model of the built-in character, a .nook file")
+  CLI::App app("Draws moving bodies three times: without occlusion, with Nook, and ray traced.");
+  app.add_option("model", o.model, "the baked model of the built-in character, a .nook file")
       ->check(CLI::ExistingFile)
       ->required();
-  app.add_option(
-         "--character", o.character,
-         "the built-in character as a .glb file, which the program mannequin writes; default: generate it")
+  app.add_option("--character", o.character,
+                 "the built-in character, a .glb file that the program mannequin writes. Default: generate "
+                 "it in memory")
       ->check(CLI::ExistingFile);
-  app.add_option("--scene", o.scene, "what moves")->check(CLI::IsMember(motion_scene_names()));
-  app.add_option("--frames", o.frames, "number of pictures in one loop")->check(CLI::Range(1, 1000));
+  app.add_option("--scene", o.scene, "name of the motion to draw. Default: walk")
+      ->check(CLI::IsMember(motion_scene_names()));
+  app.add_option("--frames", o.frames, "number of pictures of one loop of the motion. Default: 24")
+      ->check(CLI::Range(1, 1000));
   app.add_option("--rays", o.rays,
-                 "number of paths for each point in the ray-traced pictures; 0 means no ray-traced pictures")
+                 "number of paths for each point of the ray-traced pictures. 0 means no ray-traced pictures. "
+                 "Default: 64")
       ->check(CLI::Range(0, 65536));
-  app.add_option("--width", o.width_px, "width of a picture in pixels")->check(CLI::Range(16, 4096));
-  app.add_option(
-      "--out", o.out,
-      "folder for the pictures: off_body_0000.png, nook_body_0000.png, traced_body_0000.png and so on");
-  app.add_option("--context", o.context, std::string("OpenGL context: ") + platform::context_kinds())
+  app.add_option("--width", o.width_px, "width of a picture in pixels. Default: 480")
+      ->check(CLI::Range(16, 4096));
+  app.add_option("--out", o.out,
+                 "write the pictures into this folder, as off_body_0000.png, nook_body_0000.png, "
+                 "traced_body_0000.png and so on. Default: out/motion");
+  app.add_option("--context", o.context,
+                 std::string("how to create the OpenGL context (default egl): ") + platform::context_kinds())
       ->check(CLI::IsMember({"egl", "osmesa"}));
-  app.add_option("--tier", o.tier, "highest OpenGL tier: 33, 43 or best")
+  app.add_option("--tier", o.tier,
+                 "highest OpenGL tier to use: 33 (OpenGL 3.3), 43 (4.3, compute shaders) or best. Default: "
+                 "best, the highest tier of the context")
       ->transform(CLI::CheckedTransformer(std::map<std::string, int>{{"33", 33}, {"43", 43}, {"best", 0}}));
-  app.add_flag("--quiet", o.quiet, "show no progress");
+  app.add_flag("--quiet", o.quiet, "do not show progress");
   try {
     app.parse(argc, argv);
     return -1;

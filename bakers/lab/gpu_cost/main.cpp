@@ -148,24 +148,30 @@ int without_radv(const char* what) {
 int run(int argc, char** argv) {
   Options options;
   CLI::App tool(
-      "Compiles every shader with the RADV driver for GPUs that need not be present, and counts the "
-      "instructions.\nExit codes: 0 done, 77 RADV is missing or differs from the version that gave the old "
-      "numbers, 2 bad arguments, 1 anything else.",
+      "Compiles every shader with the RADV driver, for GPUs that this machine does not need to have, and "
+      "counts their instructions.\nExit codes: 0 success, 77 RADV is missing or is not the version that gave "
+      "the old numbers, 2 bad arguments, 1 any other error.",
       "nook_gpu_cost");
-  tool.add_option("--root", options.root, "folder that contains the shaders")->check(CLI::ExistingDirectory);
-  tool.add_option("--family", options.families, "GPU families to compile for, by their names in RADV")
+  tool.add_option("--root", options.root,
+                  "folder of the source tree whose shaders are counted. Default: the tree that this program "
+                  "was built from")
+      ->check(CLI::ExistingDirectory);
+  tool.add_option("--family", options.families,
+                  "GPU families to compile for, by their names in RADV; separate them by commas")
       ->delimiter(',')
       ->capture_default_str()
       ->check(CLI::IsMember(known_families));
   tool.add_option("--only", options.only, "count only shaders whose name contains this text");
-  tool.add_option("--define", options.defines, "macro to define in every shader, NAME or NAME=VALUE");
+  tool.add_option("--define", options.defines, "define this macro in every shader, as NAME or NAME=VALUE");
   tool.add_flag("--buffers-as-textures", options.buffers_as_textures,
-                "read texture buffers from 2D textures with rows of 2,048 texels");
+                "replace texture buffers by 2D textures with rows of 2,048 texels, as on OpenGL ES 3.0");
   tool.add_option("--report", options.report, "write the numbers to this JSON file");
-  tool.add_option("--dump", options.dump,
-                  "write Vulkan GLSL and disassembly to this folder, and print the loops");
-  CLI::App* compare =
-      tool.add_subcommand("compare", "print the ratio of the cycles between two source trees or reports");
+  tool.add_option(
+      "--dump", options.dump,
+      "write the Vulkan GLSL and the disassembly of each shader into this folder, and print its loops");
+  CLI::App* compare = tool.add_subcommand(
+      "compare",
+      "print the cycles of each shader in one source tree or report, divided by its cycles in another");
   compare->fallthrough();
   compare->add_option("old", options.before, "old numbers: the folder of a source tree, or a report file")
       ->required()
@@ -176,7 +182,8 @@ int run(int argc, char** argv) {
                    "--buffers-as-textures apply only to this tree")
       ->required()
       ->check(CLI::ExistingPath);
-  compare->add_option("--limit", options.limit, "exit with an error if a ratio is above this number");
+  compare->add_option("--limit", options.limit,
+                      "fail if a ratio (new cycles divided by old cycles) is above this number");
   try {
     tool.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

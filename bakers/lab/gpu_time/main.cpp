@@ -88,16 +88,19 @@ int run(int argc, char** argv) {
   Options options;
   CLI::App tool(
       "Measures the times of Nook's passes on the GPU, in milliseconds between two OpenGL time stamps.\nExit "
-      "codes: 0 done, 2 bad arguments, 3 anything else.",
+      "codes: 0 success, 2 bad arguments, 3 any other error.",
       "nook_gpu_time");
-  tool.add_option("--context", options.context, std::string("OpenGL context: ") + platform::context_kinds());
-  tool.add_option("--width", options.width, "width in pixels")
+  tool.add_option(
+      "--context", options.context,
+      std::string("how to create the OpenGL context (default egl): ") + platform::context_kinds());
+  tool.add_option("--width", options.width, "width of the picture in pixels")
       ->check(CLI::Range(16, 16384))
       ->capture_default_str();
-  tool.add_option("--height", options.height, "height in pixels")
+  tool.add_option("--height", options.height, "height of the picture in pixels")
       ->check(CLI::Range(16, 16384))
       ->capture_default_str();
-  tool.add_option("--batches", options.batches, "number of batches; the result is the median of their times")
+  tool.add_option("--batches", options.batches,
+                  "number of batches to run. The result is the median of their times")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
   tool.add_option("--batch-ms", options.batch_ms, "length of a batch in milliseconds")
@@ -105,9 +108,9 @@ int run(int argc, char** argv) {
       ->capture_default_str();
   tool.add_option(
           "--model", options.model,
-          "character model, a .nook file; with this option, characters and the world pass are measured too")
+          "also measure characters and the world pass, with this baked model of a character, a .nook file")
       ->check(CLI::ExistingFile);
-  tool.add_option("--material", options.materials, "materials to measure, .nook files")
+  tool.add_option("--material", options.materials, "also measure these materials, .nook files")
       ->check(CLI::ExistingFile);
   tool.add_option("--only", options.only, "measure only rows whose name contains this text");
   tool.add_option("--report", options.report, "write the numbers to this JSON file");

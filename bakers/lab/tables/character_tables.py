@@ -91,12 +91,12 @@ def baselines(results):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
-    parser.add_argument("--lab", type=pathlib.Path, default=ROOT / "build/bakers/lab/tool/nook-lab")
-    parser.add_argument("--assets", type=pathlib.Path, default=ROOT.parent / "shared/assets")
-    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for models and reports")
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook", help="path of the program nook; default build/bakers/tool/nook")
+    parser.add_argument("--lab", type=pathlib.Path, default=ROOT / "build/bakers/lab/tool/nook-lab", help="path of the program nook-lab; default build/bakers/lab/tool/nook-lab")
+    parser.add_argument("--assets", type=pathlib.Path, default=ROOT.parent / "shared/assets", help="folder that contains the bodies; default shared/assets beside the source tree")
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="write models and reports into this folder")
     parser.add_argument("--without-baselines", action="store_true",
-                        help="leave out the other methods and their table; this halves the time")
+                        help="do not measure the other methods, and leave out their table; this halves the time")
     parser.add_argument("--write", action="store_true", help="put the tables into the documents instead of printing them")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)

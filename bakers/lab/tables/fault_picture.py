@@ -75,9 +75,9 @@ def between(colours, count):
 
 def main():
     parser = argparse.ArgumentParser()
-    parser.add_argument("--nook", required=True)
-    parser.add_argument("--keep", type=pathlib.Path, required=True)
-    parser.add_argument("fox")
+    parser.add_argument("--nook", required=True, help="path of the program nook")
+    parser.add_argument("--keep", type=pathlib.Path, required=True, help="keep models and pictures in this folder; files that it already contains are not made again")
+    parser.add_argument("fox", help="the fox, a .glb file")
     args = parser.parse_args()
     above, below = [], []
     for name, options, words in BAKES:

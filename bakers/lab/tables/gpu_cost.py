@@ -84,7 +84,8 @@ def check():
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/lab/gpu_cost/nook_gpu_cost")
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/lab/gpu_cost/nook_gpu_cost",
+                        help="path of the program nook_gpu_cost; default build/bakers/lab/gpu_cost/nook_gpu_cost")
     parser.add_argument("--write", action="store_true", help="write the document and the committed counts")
     parser.add_argument("--check", action="store_true", help="compare the document with the committed counts")
     parser.add_argument("--committed", action="store_true", help="print the tables of the committed counts")

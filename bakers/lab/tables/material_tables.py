@@ -281,9 +281,9 @@ def summary_table(reports):
 def bench_of_arguments(description):
     """Parses the arguments of a script. Returns the bench, and whether to write into the documents."""
     parser = argparse.ArgumentParser(description=description, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
-    parser.add_argument("--lab", type=pathlib.Path, default=ROOT / "build/bakers/lab/tool/nook-lab")
-    parser.add_argument("--out", type=pathlib.Path, required=True, help="folder for materials and reports")
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook", help="path of the program nook; default build/bakers/tool/nook")
+    parser.add_argument("--lab", type=pathlib.Path, default=ROOT / "build/bakers/lab/tool/nook-lab", help="path of the program nook-lab; default build/bakers/lab/tool/nook-lab")
+    parser.add_argument("--out", type=pathlib.Path, required=True, help="write materials and reports into this folder")
     parser.add_argument("--write", action="store_true", help="put the tables into the documents instead of printing them")
     options = parser.parse_args()
     return Bench(options.tool, options.lab, options.out), options.write

@@ -101,10 +101,11 @@ def radiance(m, light, view):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("output", help="the raw material to write")
-    parser.add_argument("--texels", type=int, default=64, help="texels along a side")
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--views", choices=("fitted", "between"), default="fitted")
+    parser.add_argument("output", help="write the raw material to this file")
+    parser.add_argument("--texels", type=int, default=64, help="number of texels along a side of the material; default 64")
+    parser.add_argument("--seed", type=int, default=1, help="seed of the random fibres and normals; default 1")
+    parser.add_argument("--views", choices=("fitted", "between"), default="fitted",
+                        help="which view directions to write: fitted (default, the measured directions) or between (halfway between their azimuths)")
     options = parser.parse_args()
     side = options.texels
     lights, views = directions(0), directions(0.5 if options.views == "between" else 0)

@@ -269,11 +269,11 @@ def make_scene(scene, files, scratch, folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", type=pathlib.Path, help="folder to write the .glb files into")
-    parser.add_argument("--views", type=pathlib.Path, default=VIEWS, help="list of sources")
-    parser.add_argument("--mirrors", type=pathlib.Path, help="folder of git directories named owner+name, to read in place of the network")
-    parser.add_argument("--assets", type=pathlib.Path, help="folder with the files that are in no repository")
-    parser.add_argument("--only", action="append", help="name of a scene to make; you can repeat the option")
+    parser.add_argument("folder", type=pathlib.Path, help="write the .glb files into this folder")
+    parser.add_argument("--views", type=pathlib.Path, default=VIEWS, help="read the list of scenes and their sources from this file; default docs/nnao_views.json")
+    parser.add_argument("--mirrors", type=pathlib.Path, help="read the files from this folder instead of the network; it contains a git directory named owner+name for each repository")
+    parser.add_argument("--assets", type=pathlib.Path, help="folder that contains the files that no repository has")
+    parser.add_argument("--only", action="append", help="make only the scene with this name; you can repeat the option")
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
     failures = 0

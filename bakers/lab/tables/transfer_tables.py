@@ -204,12 +204,12 @@ def times_table(bench):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build")
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/transfer_tables")
-    parser.add_argument("--material", help="the baked fiber material")
-    parser.add_argument("--raw", help="the raw fiber material, which bake material --keep-raw wrote")
-    parser.add_argument("--only", help="names of the tables to make, separated by commas")
-    parser.add_argument("--write", action="store_true", help="put the tables into the document")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build", help="build folder that contains the programs; default build")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/transfer_tables", help="write transfers and reports into this folder; default out/transfer_tables")
+    parser.add_argument("--material", help="the baked fiber material, a .nook file; default: bake it first, which takes two minutes")
+    parser.add_argument("--raw", help="with --material: the raw fiber material, which `nook bake material --keep-raw` wrote")
+    parser.add_argument("--only", help="make only these tables; separate their names by commas. Default: all")
+    parser.add_argument("--write", action="store_true", help="put the tables into the document instead of printing them")
     arguments = parser.parse_args()
     assets = pathlib.Path(os.environ.get("NOOK_ASSETS", ROOT.parent / "shared/assets"))
     bench = Bench(arguments.build, arguments.out, assets, arguments.material or str(arguments.out / "fiber.nook"),

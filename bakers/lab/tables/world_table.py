@@ -64,8 +64,8 @@ def write_glb(path):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook")
-    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/world_table")
+    parser.add_argument("--tool", type=pathlib.Path, default=ROOT / "build/bakers/tool/nook", help="path of the program nook; default build/bakers/tool/nook")
+    parser.add_argument("--out", type=pathlib.Path, default=ROOT / "out/world_table", help="write the model and reports into this folder; default out/world_table")
     options = parser.parse_args()
     options.out.mkdir(parents=True, exist_ok=True)
     mesh, model, report = (options.out / name for name in ("table.glb", "table.nook", "table.json"))

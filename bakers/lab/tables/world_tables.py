@@ -113,12 +113,12 @@ def tables(rows_by_character):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n")[0])
-    parser.add_argument("--nook", default=ROOT / "build/bakers/tool/nook")
-    parser.add_argument("--write", action="store_true")
-    parser.add_argument("--keep", type=pathlib.Path)
-    parser.add_argument("--room", action="append", default=[])
-    parser.add_argument("--light", action="append", default=[], type=pathlib.Path)
-    parser.add_argument("characters", nargs="+", type=pathlib.Path)
+    parser.add_argument("--nook", default=ROOT / "build/bakers/tool/nook", help="path of the program nook; default build/bakers/tool/nook")
+    parser.add_argument("--write", action="store_true", help="put the tables into the documents instead of printing them")
+    parser.add_argument("--keep", type=pathlib.Path, help="keep models and reports in this folder, and use those that it already contains")
+    parser.add_argument("--room", action="append", default=[], help="SCENE.glb=METRES: also measure in this room; METRES is the number of metres per unit of the scene. You can repeat the option")
+    parser.add_argument("--light", action="append", default=[], type=pathlib.Path, help="make only the table of irradiance, under this light map; you can repeat the option")
+    parser.add_argument("characters", nargs="+", type=pathlib.Path, help="the characters to bake and measure, .glb files")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = options.keep or pathlib.Path(scratch)
