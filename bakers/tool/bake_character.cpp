@@ -248,12 +248,14 @@ void add_bake_character(Command bake) {
   command
       .add_option("--spheres", o.spheres,
                   "largest number of proxy spheres, which ride on bones and cast the shadows. Default: 130, "
-                  "or 100 with --preset production; fewer for meshes with less than about 1,000 vertices")
+                  "or 100 with --preset production; fewer for meshes with less than about 1,000 vertices. "
+                  "With --fit paper: always 130")
       .check(in_range(1, 1024));
   command
       .add_option("--key-points", o.key_points,
                   "largest number of key points, the places near the skin where shadows are summed. Default: "
-                  "500, or 800 with --preset production; fewer for small meshes")
+                  "500, or 800 with --preset production; fewer for meshes with less than about 1,000 "
+                  "vertices. With --fit paper: always 500")
       .check(in_range(1, 4096));
   command
       .add_option("--rays", o.rays,

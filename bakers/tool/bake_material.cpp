@@ -515,9 +515,10 @@ void add_bake_material(Command bake) {
       .check(in_range(0, 512))
       .capture_default_str();
   command
-      .add_option("--step-penalty", s.step_penalty,
-                  "penalty on differences between neighbouring cells of the view map. A larger value gives "
-                  "less flicker when the view turns, but a larger error; 10 halves the largest jump")
+      .add_option(
+          "--step-penalty", s.step_penalty,
+          "penalty on differences between neighbouring cells of the view map. A larger value gives smaller "
+          "jumps of the picture when the view turns, but a larger error; 10 halves the largest jump")
       .check(in_range(0.0, 1000.0))
       .capture_default_str();
   command

@@ -33,8 +33,8 @@ void add_import_options(Command command, bake::ImportOptions& options) {
   command
       .add_option("--without", options.meshes.without,
                   "leave out the meshes with this name, matched as in --mesh. You can repeat the option. If "
-                  "you give neither option, a command that reads a baked file together with its source uses "
-                  "the meshes of that bake")
+                  "you give neither --mesh nor --without, a command that reads a baked file together with "
+                  "its source uses the meshes of that bake")
       .one_each()
       .type_name("NAME");
 }

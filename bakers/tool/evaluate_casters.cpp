@@ -113,8 +113,8 @@ void add_evaluate_casters(Command evaluate_command) {
   const Option contact = command.add_option(
       "--contact", o.contact,
       "instead of --distances, measure two bodies that darken each other, each in the middle of a clip. Give "
-      "the clip of each body, the position X Y Z of the second body relative to the middle of the first one "
-      "in metres, and the angle by which the second body is turned about the vertical axis");
+      "the clip of each body, the position of the second body relative to the middle of the first one (X Y Z "
+      "in metres), and the angle by which the second body is turned about the vertical axis");
   contact.type_name("CLIP CLIP X Y Z DEGREES");
   for (const Option unused : {bearings, poses, distances, radii}) contact.excludes(unused);
   command.add_option(

@@ -196,9 +196,9 @@ void add_evaluate_world(Command evaluate_command) {
       command
           .add_flag("--silhouettes", o.silhouettes,
                     "instead, compare the outlines of shadows on the floor. The light has a cone of 1 degree "
-                    "and comes from 8 directions, 45 degrees high; the floor is divided into cells of 1 cm. "
-                    "iou is the area in which the shadow overlaps the ray-traced shadow, divided by the area "
-                    "that either of them covers")
+                    "and comes from 8 directions, 45 degrees above the floor; the floor is divided into "
+                    "cells of 1 cm. iou is the area in which the shadow overlaps the ray-traced shadow, "
+                    "divided by the area that at least one of them covers")
           .excludes(composite);
   command
       .add_input(

@@ -40,7 +40,7 @@ void add_commands(CLI::App& tool) {
   nook::tool::add_evaluate_transfer(nook::tool::Command(*evaluate));
   nook::tool::add_evaluate_world(nook::tool::Command(*evaluate));
   CLI::App* train =
-      tool.add_subcommand("train", "train the networks, and fit the constants, that are built into Nook")
+      tool.add_subcommand("train", "train the networks and fit the constants that are built into Nook")
           ->require_subcommand(1);
   nook::tool::add_train_bent(nook::tool::Command(*train));
   nook::tool::add_train_nnao(nook::tool::Command(*train));
