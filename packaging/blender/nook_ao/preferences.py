@@ -34,7 +34,7 @@ class NookSettings(bpy.types.PropertyGroup):
     poses: bpy.props.EnumProperty(name="Poses", items=POSES, default="all", override=OVERRIDABLE, description="The poses that the bake learns from")
     without: bpy.props.StringProperty(name="Leave out", default="", override=OVERRIDABLE,
                                       description="Names of objects that are not part of the bake, such as spare weapons, separated by "
-                                      "commas; * and ? stand for any text and any character. Lower levels of detail (LOD1 and so on) "
+                                      "commas; * and ? stand for any text and any character. Simplified copies of meshes (LOD1, LOD2 and so on) "
                                       "are always left out")
     ground: bpy.props.BoolProperty(name="Ground", default=False, override=OVERRIDABLE,
                                    description="If ticked, a floor at height 0 darkens the character from below")
