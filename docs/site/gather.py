@@ -25,7 +25,7 @@ TREE = [("Use it", ["readme", "start", "concepts", "glossary", "install", "conve
                    "transfer", "guide/reports", "guide/pipeline", "guide/farms", "guide/artists"]),
         ("Engines", ["engines/README", "engines/raylib", "engines/sdl", "engines/ogre", "engines/osg", "engines/vtk", "engines/three",
                      "engines/vulkan"]),
-        ("Evidence", ["evidence", "character", "material_decoding", "synthesis", "gpu_cost", "gpu_time"]),
+        ("Evidence", ["evidence", "sources", "character", "material_decoding", "synthesis", "gpu_cost", "gpu_time"]),
         ("Platforms", ["platforms", "opengl_es", "web", "python", "gl_state"]),
         ("Reference", ["api/README"]),
         ("Samples", []),
