@@ -20,6 +20,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 DATA = "docs/data"
+PARTS = ("character_speed.", "neighbour_cost.")  # reports of which pages show only what computed() makes of them
 COUNTS = "tests/bakers/lab/gpu_cost/counts.json"
 PAGES = ("README.md", "docs/evidence.md", "docs/performance.md", "docs/limits.md")
 
@@ -87,6 +88,11 @@ def computed(reports):
             add(f"{gpu}, {preset}", width * height / 64 * value("gpu_cost." + passes) / (units * clock) * 1000, "ms")
     add("fast / default", value("gpu_cost.NNAO 9, half") / value("gpu_cost.NNAO 9"), "ratio of cycles")
     add("casters of a body", 40 * value("gpu_cost.one caster of the world pass"), "cycles")
+    add("raw floats of a material", 100 * 100 * 96 * 96 * 3 * 4 / 2**30, "GiB")
+    for isa in ("AVX2", "AVX-512"):
+        for place in ("far", "near"):
+            alone, four = (value(f"neighbour_cost.{place}, {isa}: {who}") for who in ("alone", "with four"))
+            add(f"a {place} neighbour, {isa}", (four - alone) / 4, "µs")
     add("rms of ual_mannequin", math.sqrt(value("character.ual_mannequin, every second clip: mse")), "AO")
     for name, unit in {name: entry["unit"] for name, entry in reports.items() if name.startswith("character_speed.")}.items():
         body, _, part = name.partition(".")[2].rpartition(": ")
@@ -134,7 +140,7 @@ def bound(texts, bindings, figures):
                 else:
                     found.append((page, index + 1, match, name))
     for name in figures:
-        if figures[name]["file"].startswith(DATA) and name not in used and not name.startswith("character_speed."):
+        if figures[name]["file"].startswith(DATA) and name not in used and not name.startswith(PARTS):
             faults.append(f"{figures[name]['file']}: no page shows '{name.partition('.')[2]}'; remove it, or name it in {DATA}/pages.json")
     return found, faults
 

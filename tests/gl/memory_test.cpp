@@ -274,9 +274,9 @@ TEST_CASE("the memory of an instance is what the documents say") {
           tier, ao, shadows, posed, stream);
       CHECK(memory.instance_bytes == ao + shadows + posed + stream);
     }
-    // docs/conventions.md: 53 KB with the arrays, and 6 KB without.
-    CHECK(full < 1.15 * 53e3);
-    CHECK(held < (computes(tier) ? 6e3 : 1.15 * 53e3));
+    // docs/conventions.md: 55 KB with the arrays, and 6 KB without.
+    CHECK(full < 1.1 * 55e3);
+    CHECK(held < (computes(tier) ? 6e3 : 1.1 * 55e3));
     nook_gl_destroy(&gl);
   }
   nook_model_destroy(&model);

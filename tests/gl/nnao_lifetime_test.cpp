@@ -41,6 +41,14 @@ TEST_CASE("nnao: memory is known before, and small enough at 3840 x 2160") {
   desc.blur = 0;
   NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
   CHECK(bytes == std::uint64_t{3840} * 2160 * 5 / 2);
+  // A mean over frames keeps 12 bytes more for each pixel.
+  desc.blur = 1;
+  desc.half_resolution = 0;
+  desc.max_history_frames = 4;
+  NOOK_OK_OR_FAIL(nook_nnao_memory(&desc, &bytes));
+  CHECK(bytes == std::uint64_t{3840} * 2160 * (9 + 12));
+  desc.blur = 0;
+  desc.max_history_frames = 0;
   // The paper's form keeps normals as well.
   const std::vector<std::byte> paper = nnao::write_network(mild_network(nnao::NetworkForm::paper));
   desc.network = paper.data();
