@@ -20,7 +20,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 DATA = "docs/data"
-PARTS = ("character_speed.", "neighbour_cost.")  # reports of which pages show only what computed() makes of them
+PARTS = ("character_speed.", "neighbour_cost.")  # pages show what computed() makes of these reports
 COUNTS = "tests/bakers/lab/gpu_cost/counts.json"
 PAGES = ("README.md", "docs/evidence.md", "docs/performance.md", "docs/limits.md")
 
