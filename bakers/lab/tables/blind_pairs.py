@@ -24,7 +24,7 @@ VIEWS = pathlib.Path(__file__).resolve().parents[3] / "docs/nnao_views.json"
 WIDTH, HEIGHT, GAP, COLUMNS = 1280, 720, 4, 3  # of a panel and of the sheet (view_pictures.cpp)
 PANELS = ["scene", "traced", "nnao", "xegtao", "hbao", "gtao"]
 NAMES = {"xegtao": "XeGTAO High, tuned denoiser", "hbao": "HBAO 16, tuned blur", "gtao": "GTAO 16, tuned denoiser"}
-VIEW_COUNT, PART, STEP, SEED = 20, (480, 400), 40, 1
+VIEW_COUNT, PART, STEP = 20, (480, 400), 40
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
 
 
@@ -72,7 +72,7 @@ def pair_picture(panels, left_method, right_method):
 
 def make(options):
     options.pairs.mkdir(parents=True, exist_ok=True)
-    rng = random.Random(SEED)
+    rng = random.Random(options.seed)
     pairs = [(view, peer) for view in chosen_views() for peer in NAMES]
     rng.shuffle(pairs)
     key = {}
@@ -123,6 +123,7 @@ def main():
     command = commands.add_parser("make", help="make the pairs")
     command.add_argument("sheets", type=pathlib.Path, help="folder of nook-lab's --images")
     command.add_argument("pairs", type=pathlib.Path, help="folder to write the pairs into")
+    command.add_argument("--seed", type=int, default=1, help="seed of the order and the sides; default 1")
     command.set_defaults(run=make)
     command = commands.add_parser("count", help="count the answers")
     command.add_argument("pairs", type=pathlib.Path, help="folder of the pairs")
