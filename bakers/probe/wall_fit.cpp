@@ -234,6 +234,7 @@ using Sparse = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
 constexpr std::uint32_t order = 2, functions = nook::probe::harmonic_count(order);
 constexpr double least_light_share = 0.25;  // share of the mean light; all darker places have the same weight
+constexpr double sealed_share = 1e-3;  // share of the mean light of all probes; darker probes are sealed off
 constexpr int most_steps = 200;
 
 // The weight of each corner's probe at a place, as in `interpolate`.
@@ -273,6 +274,18 @@ double& channel(Eigen::MatrixXd& m, Eigen::Index row, int c) {
   return m(row, c);
 }
 
+// Probes that no light reaches, while others are lit. They keep their coefficients. Masks choose probes by
+// their light, so dim places outside may use a dark probe, and the fit would light the sealed place for them.
+std::vector<bool> sealed_probes(const Probes& probes) {
+  double mean = 0;
+  for (std::size_t p = 0; p < probes.grid.size(); ++p)
+    mean += double(luminance(probes.of(p)[0])) / double(probes.grid.size());
+  std::vector<bool> sealed;
+  for (std::size_t p = 0; p < probes.grid.size(); ++p)
+    sealed.push_back(double(luminance(probes.of(p)[0])) < sealed_share * mean);
+  return sealed;
+}
+
 }  // namespace
 
 void fit_to_surfaces(Probes& probes, const TrainingPlaces& places, const SurfaceFitSettings& settings) {
@@ -285,6 +298,7 @@ void fit_to_surfaces(Probes& probes, const TrainingPlaces& places, const Surface
   const auto rows = Eigen::Index(places.size());
   double mean = 0;
   for (const Vec3 e : places.irradiance) mean += double(luminance(e)) / double(places.size());
+  const std::vector<bool> sealed = sealed_probes(probes);
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd rest(rows + unknowns, 3);
   rest.setZero();
@@ -303,7 +317,8 @@ void fit_to_surfaces(Probes& probes, const TrainingPlaces& places, const Surface
         found[0] += factor * double(b.x);
         found[1] += factor * double(b.y);
         found[2] += factor * double(b.z);
-        entries.emplace_back(j, Eigen::Index(corners.probe[c] * functions + k), importance * factor);
+        if (!sealed[corners.probe[c]])
+          entries.emplace_back(j, Eigen::Index(corners.probe[c] * functions + k), importance * factor);
       }
     }
     const Vec3 truth = places.irradiance[i];

@@ -148,6 +148,24 @@ TEST_CASE("coefficients are found from irradiance alone") {
   CHECK_THROWS_AS(fit_to_surfaces(lobes, places), Failure);
 }
 
+TEST_CASE("probes that no light reaches stay dark where dim places use them") {
+  const Grid grid = grid_in_box({2, 1, 1}, {0, 0, 0}, {2, 1, 1});
+  Probes probes = dark_grid(grid);
+  probes.coefficients[0] = Vec3{1, 1, 1} * float(std::sqrt(4 * pi));
+  TrainingPlaces places;
+  Random random(3);
+  for (int i = 0; i < 100; ++i) {
+    places.position_ws.push_back({random.between(0.5f, 1.5f), 0, 0.5f});
+    places.normal.push_back({0, 1, 0});
+    places.on_surface.push_back(1);
+    places.irradiance.push_back(Vec3{1, 1, 1} * float(2 * pi));  // twice the light of the lit probe
+  }
+  fit_to_surfaces(probes, places);
+  for (std::size_t k = 0; k < 9; ++k) CHECK(probes.of(1)[k] == Vec3{});
+  // The other probe took the light of the places.
+  CHECK(probes.of(0)[0].x > 1.2f * float(std::sqrt(4 * pi)));
+}
+
 TEST_CASE("probes in a solid move out of it, and others stay") {
   const LitScene scene(cube({0.1f, 0, 0}, 0.3f), map_of(8, 4, [](Vec3) { return Vec3{1, 1, 1}; }));
   const Grid grid = grid_in_box({3, 3, 3}, {-1.5f, -1.5f, -1.5f}, {1.5f, 1.5f, 1.5f});
