@@ -76,7 +76,7 @@ Measured measured(const LookupScene& scene, const Grid& grid, const LookupSettin
     m.all.push_back(i);
     if (is_near_wall(scene.lit, grid, before)) m.near_walls.push_back(i);
     for (std::size_t r = 0; r < m.of_room.size(); ++r)
-      if (scene.rooms->room[r].air.holds(before)) m.of_room[r].push_back(i);
+      if (scene.rooms->room[r].holds(before)) m.of_room[r].push_back(i);
   }
   m.places = std::move(places);
   return m;

@@ -28,16 +28,18 @@ using Json = nlohmann::ordered_json;
 struct Options {
   CommonOptions common;
   std::filesystem::path scene, light;
-  std::array<std::uint32_t, 3> counts{};  // 0: eight probes per room
+  std::array<std::uint32_t, 3> counts{};  // 0: as the built-in rooms need
   BoxArgument box;
   LookupSettings settings;
   std::string direct = "all";
   bake::ImportOptions reading;
   bool no_textures = false;
   std::filesystem::path picture;
+  std::string rooms = "six";
 };
 
-constexpr std::array<std::uint32_t, 3> eight_a_room{6, 2, 5};
+// Eight probes for most rooms; and in the house about one probe in each 1.2 metres, as a user might set them.
+constexpr std::array<std::uint32_t, 3> six_rooms_counts{6, 2, 5}, house_counts{8, 3, 5};
 
 // Draws three floor plans below each other: path traced, trilinear lookup, and lookup with walls. The scale
 // is logarithmic, so that dim rooms are visible.
@@ -60,12 +62,12 @@ bake::Picture picture_of(const FloorPlan& plan) {
 }
 
 Json rows_of(const Options& options, const LookupScene& scene, float origin_offset, Vec3 low_ws, Vec3 high_ws,
-             FloorPlan* plan = nullptr) {
+             const std::array<std::uint32_t, 3>& built_in = six_rooms_counts, FloorPlan* plan = nullptr) {
   LookupSettings settings = options.settings;
   settings.seed = options.common.seed;
   settings.path.origin_offset = origin_offset;
   settings.path.direct = bake::direct_of(options.direct);
-  const auto counts = options.counts[0] > 0 ? options.counts : eight_a_room;
+  const auto counts = options.counts[0] > 0 ? options.counts : built_in;
   platform::ProgressBar bar(options.common.quiet);
   return lookup_rows(
       scene,
@@ -88,10 +90,13 @@ Json evaluate(const Options& options) {
                     "built-in rooms");
   Json report;
   if (options.scene.empty()) {
-    const Rooms rooms = make_rooms();
+    const bool house = options.rooms == "house";
+    const Rooms rooms = house ? make_house() : make_rooms();
     FloorPlan plan;
-    report["rows"] = rows_of(options, {"rooms", *rooms.lit, rooms.soup, &rooms}, rooms.origin_offset,
-                             rooms.low_ws, rooms.high_ws, options.picture.empty() ? nullptr : &plan);
+    report["rows"] =
+        rows_of(options, {house ? "house" : "rooms", *rooms.lit, rooms.soup, &rooms}, rooms.origin_offset,
+                rooms.low_ws, rooms.high_ws, house ? house_counts : six_rooms_counts,
+                options.picture.empty() ? nullptr : &plan);
     if (!options.picture.empty())
       platform::OutputFile(options.picture).commit(bake::png_bytes(picture_of(plan)));
   } else {
@@ -119,10 +124,17 @@ void add_evaluate_grid(Command evaluate_command) {
       "--light", o.light,
       "with --scene (required): the environment map that lights the scene, a .hdr or .exr file");
   command
+      .add_option(
+          "--rooms", o.rooms,
+          "which built-in rooms to measure in: six with walls of 0.1 metres, or a house with walls of 0.06 "
+          "metres and a sealed cupboard")
+      .check(one_of({"six", "house"}))
+      .capture_default_str();
+  command
       .add_option_function(
           "--grid", [&o](const std::string& text) { o.counts = parse_grid_counts(text); },
-          "number of probes along x, y and z. Default: 6x2x5, which places eight probes in each built-in "
-          "room")
+          "number of probes along x, y and z. Default: 6x2x5, which places eight probes in each of the six "
+          "rooms, and 8x3x5 in the house")
       .type_name("AxBxC");
   command
       .add_option_function(
