@@ -118,8 +118,8 @@ void add_evaluate_grid(Command evaluate_command) {
       "closed rooms, or in the scene of --scene.");
   const auto options = std::make_shared<Options>();
   Options& o = *options;
-  command.add_input("--scene", o.scene,
-                    "measure in this scene, a .glb or .gltf file, instead of the built-in rooms");
+  const Option scene = command.add_input(
+      "--scene", o.scene, "measure in this scene, a .glb or .gltf file, instead of the built-in rooms");
   command.add_input(
       "--light", o.light,
       "with --scene (required): the environment map that lights the scene, a .hdr or .exr file");
@@ -128,6 +128,7 @@ void add_evaluate_grid(Command evaluate_command) {
           "--rooms", o.rooms,
           "which built-in rooms to measure in: six with walls of 0.1 metres, or a house with walls of 0.06 "
           "metres and a sealed cupboard")
+      .excludes(scene)
       .check(one_of({"six", "house"}))
       .capture_default_str();
   command

@@ -2,6 +2,7 @@
 // the glossy light with prefiltered cube maps.
 #include "bakers/lab/probe/glossy_error.h"
 #include "bakers/lab/probe/probe_methods.h"
+#include "bakers/lab/probe/texel_error.h"
 #include "bakers/lab/tool/lab_commands.h"
 #include "bakers/tool/command_end.h"
 #include "bakers/tool/command_line.h"
@@ -15,14 +16,20 @@ using Json = nlohmann::ordered_json;
 class Peers : public tool::ProbePeers {
  public:
   void add_options(tool::Command command) override {
-    command.add_flag("--glossy", glossy_,
-                     "for maps: instead of comparing ways to fit a probe, compare the light of its lobes "
-                     "with prefiltered cube maps, on random glossy surfaces");
+    const tool::Option glossy =
+        command.add_flag("--glossy", glossy_,
+                         "for maps: instead of comparing ways to fit a probe, compare the light of its lobes "
+                         "with prefiltered cube maps, on random glossy surfaces");
     command
         .add_option("--surfaces", surfaces_.surfaces,
                     "with --glossy: number of random surfaces to measure for each kind of surface")
         .check(tool::in_range(1u, 1u << 20))
         .capture_default_str();
+    command
+        .add_flag("--texels", texels_,
+                  "for maps: measure over all texels with the same weight, with the samples and normals of "
+                  "Probulator, instead of comparing methods of fitting by solid angle")
+        .excludes(glossy);
   }
 
   std::vector<bake::probe::ProbeMethod> methods(std::uint32_t lobes,
@@ -32,6 +39,7 @@ class Peers : public tool::ProbePeers {
 
   Json rows_of_map(const bake::Environment& map, const std::string& name, std::uint32_t lobes,
                    std::uint64_t seed, platform::ProgressBar& bar) const override {
+    if (texels_) return texel_rows(map, name, lobes);
     if (!glossy_) return {};
     GlossySettings settings = surfaces_;
     settings.lobes = lobes;
@@ -43,7 +51,7 @@ class Peers : public tool::ProbePeers {
   }
 
  private:
-  bool glossy_ = false;
+  bool glossy_ = false, texels_ = false;
   GlossySettings surfaces_;
 };
 
