@@ -114,6 +114,9 @@ TEST_CASE("the C++ wrapper takes poses from the GPU") {
     CHECK(nook::pool_info(gl, pooled).near_count == 1);
     CHECK(nook::read_pool(gl, pooled, {one.instance})[0].is_near == 1);
     CHECK(nook::read_pose(gl, pooled, one.instance, bones) == rows);
+    std::vector<std::uint32_t> ao_buffers;
+    CHECK(nook::read_pool_table(gl, pooled, model, ao_buffers).entry_count >= 1);
+    CHECK(ao_buffers == std::vector{nook::read_pool(gl, pooled, {one.instance})[0].buffer});
   } else {
     CHECK_THROWS_AS(nook::set_poses(gl, scene, poses, {one}), nook::Error);
     nook::Scene pooled(host);

@@ -84,6 +84,12 @@ NOOK_AT(nook_gl_pool_info, struct_size, 0);
 NOOK_AT(nook_gl_pool_info, near_count, 4);
 NOOK_AT(nook_gl_pool_info, waiting_count, 8);
 
+NOOK_SIZE(nook_gl_pool_table, 16);
+NOOK_AT(nook_gl_pool_table, struct_size, 0);
+NOOK_AT(nook_gl_pool_table, buffer, 4);
+NOOK_AT(nook_gl_pool_table, entry_count, 8);
+NOOK_AT(nook_gl_pool_table, ao_buffer_count, 12);
+
 NOOK_SIZE(nook_gl_memory, 32);
 NOOK_AT(nook_gl_memory, struct_size, 0);
 NOOK_AT(nook_gl_memory, reserved, 4);

@@ -179,6 +179,44 @@ NOOK_API nook_result nook_gl_scene_read_pool(nook_gl gl, nook_scene scene, const
                                              uint32_t count, nook_gl_pool_view* views,
                                              nook_gl_pool_info* info);
 
+/* A table on the GPU with one entry for each instance of a scene with a pool. With it, your shaders find the
+ * AO of a crowd that you draw with indirect or multi-draw calls, and you need not ask for views.
+ *
+ * The entry of an instance has the index (instance & 0xfffffu) - 1. It has four 32-bit numbers, a uvec4 in
+ * std430, from the start of the buffer:
+ *   x  the OpenGL name of the buffer with the instance's AO; 0: far, so AO is 1
+ *   y  the index of the first vertex's AO in this buffer, in floats; 0 if far
+ *   z  the generation of the view (nook_gl_pool_view.generation)
+ *   w  the level of detail of the last update (nook_scene_instance_info.level); 0 if far
+ * Entries without an instance are 0. Bind one of the model's AO buffers, pass its name to the shader, and
+ * read, in file order:
+ *   uvec4 entry = entries[(instance & 0xfffffu) - 1u];
+ *   float ao = entry.x == bound_buffer ? values[entry.y + vertex] : 1.0;
+ * If a model has several AO buffers, bind them all and choose by entry.x, or draw once for each buffer. */
+typedef struct nook_gl_pool_table {
+  uint32_t struct_size;
+  /* The OpenGL name of the buffer. Bind it for reading only, at any binding point. */
+  uint32_t buffer;
+  uint32_t entry_count;
+  /* The number of buffers with the AO of the model's near instances. */
+  uint32_t ao_buffer_count;
+} nook_gl_pool_table;
+
+/* Tells the table of a scene, and the OpenGL names of the AO buffers of a model: as many as fit into
+ * `ao_buffers`, which may be NULL if `capacity` is 0. The first call makes the table: 16 bytes of OpenGL
+ * memory and 16 of host memory for each instance. From then on, nook_gl_scene_update,
+ * nook_gl_scene_set_poses and nook_gl_scene_prepare write the entries that change, with glBufferSubData. So
+ * commands that you issue after these calls see the new entries and their AO without a barrier. If an update
+ * fails, the entries stay as they were until the next call.
+ * The buffers stay until you add or remove instances, change a model, or call nook_gl_scene_release. Then
+ * ask again, after nook_gl_scene_prepare or nook_gl_scene_update. The table's buffer stays as long as you
+ * have at most nook_gl_pool_desc.instance_count instances.
+ * The call prepares the scene, as nook_gl_scene_prepare does. Context thread. Errors: INVALID_ARGUMENT (also:
+ * the scene has no pool), UNSUPPORTED, GL, OUT_OF_MEMORY. */
+NOOK_API nook_result nook_gl_scene_read_pool_table(nook_gl gl, nook_scene scene, nook_model model,
+                                                   nook_gl_pool_table* table, uint32_t* ao_buffers,
+                                                   uint32_t capacity);
+
 #ifdef __cplusplus
 }
 #endif

@@ -51,6 +51,19 @@ inline nook_gl_pool_info pool_info(const Gl& gl, const Scene& scene) {
   return info;
 }
 
+// Returns the table of a pool on the GPU, and appends the names of the model's AO buffers to `ao_buffers`.
+inline nook_gl_pool_table read_pool_table(const Gl& gl, Scene& scene, const CharacterModel& model,
+                                          std::vector<std::uint32_t>& ao_buffers) {
+  nook_gl_pool_table table{};
+  table.struct_size = sizeof table;
+  check(nook_gl_scene_read_pool_table(gl.get(), scene.get(), model.get(), &table, nullptr, 0));
+  const std::size_t known = ao_buffers.size();
+  ao_buffers.resize(known + table.ao_buffer_count);
+  check(nook_gl_scene_read_pool_table(gl.get(), scene.get(), model.get(), &table, ao_buffers.data() + known,
+                                      table.ao_buffer_count));
+  return table;
+}
+
 }  // namespace wrapper
 }  // namespace nook
 #endif

@@ -15,6 +15,12 @@ nook_gl_pool_view view_of(const gl::PooledView& view) {
           view.is_near ? 1u : 0u};
 }
 
+void need_pool(const Scene& scene) {
+  if (!scene.pool.is_used())
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
+                  "the scene has no pool; call nook_gl_scene_set_pool first, or nook_gl_scene_view");
+}
+
 }  // namespace
 
 nook_result nook_gl_scene_set_pool(nook_gl gl, nook_scene scene, const nook_gl_pool_desc* desc) {
@@ -40,9 +46,7 @@ nook_result nook_gl_scene_set_pool(nook_gl gl, nook_scene scene, const nook_gl_p
 nook_result nook_gl_scene_read_pool(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
                                     uint32_t count, nook_gl_pool_view* views, nook_gl_pool_info* info) {
   return api::with_gl_scene("nook_gl_scene_read_pool", gl, scene, [&] {
-    if (!scene->scene.pool.is_used())
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "the scene has no pool; call nook_gl_scene_set_pool first, or nook_gl_scene_view");
+    need_pool(scene->scene);
     if (count > 0) {
       need(instances, "instances");
       need(views, "views");
@@ -55,5 +59,21 @@ nook_result nook_gl_scene_read_pool(nook_gl gl, nook_scene scene, const nook_ins
     }
     for (uint32_t i = 0; i < count; ++i)
       views[i] = view_of(gl->characters->pooled_view(scene->scene, instances[i]));
+  });
+}
+
+nook_result nook_gl_scene_read_pool_table(nook_gl gl, nook_scene scene, nook_model model,
+                                          nook_gl_pool_table* table, uint32_t* ao_buffers,
+                                          uint32_t capacity) {
+  return api::with_gl_scene("nook_gl_scene_read_pool_table", gl, scene, [&] {
+    need(model, "model");
+    need(table, "table");
+    if (capacity > 0) need(ao_buffers, "ao_buffers");
+    need_pool(scene->scene);
+    gl->guarded([&] {
+      const gl::PoolTablePlace place =
+          gl->characters->pool_table(api::handle_of(scene), *model, {ao_buffers, capacity});
+      write_info(table, nook_gl_pool_table{0, place.buffer, place.entries, place.ao_buffers});
+    });
   });
 }

@@ -37,6 +37,11 @@ class CharacterGl {
     return tier_->pooled_view(scene, instance);
   }
   PoolCount pool_count(const Scene& scene) const { return tier_->pool_count(scene); }
+  PoolTablePlace pool_table(const SceneHandle& handle, const LoadedModel& model,
+                            std::span<GLuint> ao_buffers) {
+    prepare(handle);
+    return tier_->pool_table(*handle.scene, model, ao_buffers);
+  }
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const;
   void read(const VertexValues& values, float* out) const;
   // Copies AO to the host's own buffers and textures. The caller must hold a StateGuard for output_users.

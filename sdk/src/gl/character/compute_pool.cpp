@@ -123,6 +123,22 @@ void ComputeScene::finish_assigned(Scene& scene_to_change) noexcept {
   }
 }
 
+void ComputeScene::make_table(Device& device) {
+  // The scene reserves slots for the instances that the host will add, so that the buffer can stay.
+  table.make(device, placements.size(), std::max<std::size_t>(scene->instances.capacity(), 1));
+}
+
+void ComputeScene::write_table(const Device& device) noexcept {
+  if (!table.is_used()) return;
+  table.write(device, placements.size(), [&](std::size_t slot) {
+    const Placement<ComputeChunk>& placement = placements[slot];
+    if (!placement.id) return PoolEntry{};
+    if (!placement.chunk || placement.is_new) return PoolEntry{0, 0, placement.generation, 0};
+    return PoolEntry{placement.chunk->ao.name(), placement.place * placement.chunk->model->file_vertices(),
+                     placement.generation, scene->instances[slot].plan.level};
+  });
+}
+
 PooledView ComputeScene::pooled_view(nook_instance_id instance) const {
   const Placement<ComputeChunk>* const placement = find(instance);
   if (!placement) fail_without_place(instance);

@@ -248,6 +248,7 @@ void ComputeTier::set_poses(Scene& scene, const PoseBatch& batch) {
     });
   take_poses(scene, placed, batch);
   if (bytes > 0) convert_poses(placed, batch, windows);
+  placed.write_table(device_);
 }
 
 void ComputeTier::convert_poses(const ComputeScene& placed, const PoseBatch& batch,

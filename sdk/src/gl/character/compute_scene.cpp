@@ -145,6 +145,7 @@ ComputeScene::ComputeScene(Device& device, const Scene& of)
     : PlacedScene(of, device.memory),
       stream(device, "nook: poses and casters", 4096, nullptr, GL_STREAM_DRAW),
       clips(device.memory),
+      table(device.memory),
       candidates_(device.memory) {}
 
 void ComputeScene::make_buffers(Device& device) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "sdk/src/gl/character/placed_scene.h"
+#include "sdk/src/gl/character/pool_table.h"
 #include "sdk/src/gl/character/tier.h"
 #include "shaders/character/layout.h"
 
@@ -150,6 +151,11 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   // New instances of the pool have their AO now.
   void finish_assigned(Scene& scene_to_change) noexcept;
   PooledView pooled_view(nook_instance_id instance) const;
+  // Makes the table for the host, or makes it larger if instances were added. Throws Failure.
+  void make_table(Device& device);
+  // Writes what changed since the last call, if the host uses the table.
+  void write_table(const Device& device) noexcept;
+  PoolTable table;
   PoolCount pool_count;
 
  private:

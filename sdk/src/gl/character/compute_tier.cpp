@@ -110,7 +110,9 @@ void ComputeTier::prepare(const Scene& scene) {
     placed->place_all(device_, models_);
     placed->make_buffers(device_);
     device_.check("preparing a scene");
+    if (placed->table.is_used()) placed->make_table(device_);
     placed->finish();
+    placed->write_table(device_);
   }
   placed->place_clips(device_);
   make_programs(*placed);
@@ -123,6 +125,7 @@ void ComputeTier::update(Scene& scene) {
   if (upload_frame(device_, placed)) run({placed, scene.settings.form == NOOK_FORM_DEFAULT});
   remember_update(placed, scene);
   placed.finish_assigned(scene);
+  placed.write_table(device_);
   count_update(placed, scene);
 }
 
@@ -141,6 +144,20 @@ PooledView ComputeTier::pooled_view(const Scene& scene, nook_instance_id instanc
 PoolCount ComputeTier::pool_count(const Scene& scene) const {
   const ComputeScene* placed = placed_scene(scenes_, scene);
   return placed ? placed->pool_count : PoolCount{};
+}
+
+PoolTablePlace ComputeTier::pool_table(const Scene& scene, const LoadedModel& model,
+                                       std::span<GLuint> ao_buffers) {
+  ComputeScene& placed = *placed_scene(scenes_, scene);
+  placed.make_table(device_);
+  placed.write_table(device_);
+  PoolTablePlace place{placed.table.name(), placed.table.size(), 0};
+  for (const ComputeChunk& chunk : placed.chunks) {
+    if (chunk.model->model.get() != &model) continue;
+    if (place.ao_buffers < ao_buffers.size()) ao_buffers[place.ao_buffers] = chunk.ao.name();
+    ++place.ao_buffers;
+  }
+  return place;
 }
 
 LightPlace ComputeTier::light_place(const Scene& scene, nook_instance_id instance) const {

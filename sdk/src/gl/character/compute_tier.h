@@ -19,6 +19,8 @@ class ComputeTier final : public Tier {
   VertexValues place(const Scene& scene, nook_instance_id instance) const override;
   PooledView pooled_view(const Scene& scene, nook_instance_id instance) const override;
   PoolCount pool_count(const Scene& scene) const override;
+  PoolTablePlace pool_table(const Scene& scene, const LoadedModel& model,
+                            std::span<GLuint> ao_buffers) override;
   LightPlace light_place(const Scene& scene, nook_instance_id instance) const override;
   void read(const VertexValues& values, float* out) const override;
   ModelMemory memory_of(const LoadedModel& model) const override;

@@ -150,6 +150,10 @@ PoolCount FeedbackTier::pool_count(const Scene&) const {
   return {};
 }
 
+PoolTablePlace FeedbackTier::pool_table(const Scene&, const LoadedModel&, std::span<GLuint>) {
+  return {};
+}
+
 LightPlace FeedbackTier::light_place(const Scene& scene, nook_instance_id instance) const {
   const FeedbackScene* placed = placed_scene(scenes_, scene);
   if (!placed) fail_without_light(instance);

@@ -32,6 +32,13 @@ struct PoolCount {
   std::uint32_t waiting = 0;  // instances that are near enough, but found the pool full
 };
 
+// The table of a pool on the GPU.
+struct PoolTablePlace {
+  GLuint buffer = 0;
+  std::uint32_t entries = 0;
+  std::uint32_t ao_buffers = 0;  // number of buffers with the AO of a model's near instances
+};
+
 struct LightPlace {
   VertexValues directional_ao;
   GLuint texture = 0;  // the texture that contains the lights
@@ -72,6 +79,10 @@ class Tier {
   // The same for a scene with a pool.
   virtual PooledView pooled_view(const Scene& scene, nook_instance_id instance) const = 0;
   virtual PoolCount pool_count(const Scene& scene) const = 0;
+  // Returns the table of a prepared scene with a pool. From the first call on, the tier keeps the table
+  // current. Copies as many names of the model's AO buffers as fit. Throws Failure.
+  virtual PoolTablePlace pool_table(const Scene& scene, const LoadedModel& model,
+                                    std::span<GLuint> ao_buffers) = 0;
   // Throws Failure unless the last update saw a light on the instance.
   virtual LightPlace light_place(const Scene& scene, nook_instance_id instance) const = 0;
 
