@@ -5,6 +5,8 @@
 //        nook_gpu_poses_bench table [largest count]. Prints the frame's time and the memory of crowds of 100
 //        instances, of 1,000 and so on, up to 10,000 by default. 100,000 need more spheres than fit into a
 //        storage block of 128 MiB, and end with Nook's message.
+//        nook_gpu_poses_bench pool [largest count]. Prints the same for crowds by clips without neighbours,
+//        where all are without a pool, and where 200 instances are near in a pool.
 #include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_gl_poses.h>
@@ -100,8 +102,10 @@ ClipSet sample_clip(const CharacterModel& model) {
 // This crowd stands on a square, 2 m apart, and has one model.
 class Stage {
  public:
+  static constexpr std::uint32_t pool_places = 200;
+
   Stage(nook_context context, nook_model model, std::uint32_t bones, std::uint32_t count,
-        std::uint32_t neighbours)
+        std::uint32_t neighbours, bool has_pool = false)
       : bones_(bones) {
     nook_scene_desc scene_desc;
     need_ok(nook_scene_desc_init(&scene_desc));
@@ -111,6 +115,14 @@ class Stage {
     desc.get_proc = bench::stub_loader;
     desc.state_mode = NOOK_GL_STATE_HOST;
     need_ok(nook_gl_create(context, &desc, &gl_));
+    side_ = static_cast<std::uint32_t>(std::ceil(std::sqrt(double(count))));
+    if (has_pool) {
+      // The camera stands in a corner of the crowd.
+      const float corner[3] = {0, 0, 0};
+      need_ok(nook_scene_set_camera(scene_, corner));
+      const nook_gl_pool_desc pool{sizeof pool, pool_places, 1000, count};
+      need_ok(nook_gl_scene_set_pool(gl_, scene_, &pool));
+    }
     for (std::uint32_t i = 0; i < count; ++i) {
       nook_instance_id id = 0;
       need_ok(nook_scene_add_instance(scene_, model, &id));
@@ -119,7 +131,6 @@ class Stage {
     if (neighbours) need_ok(nook_scene_link_nearest(scene_, neighbours, 5));
     for (std::size_t p = 0; p < body_count; ++p)
       bodies_.push_back(bench::sample_pose(bones, static_cast<unsigned>(p + 1)));
-    side_ = static_cast<std::uint32_t>(std::ceil(std::sqrt(double(count))));
   }
   ~Stage() {
     nook_gl_destroy(&gl_);
@@ -320,10 +331,28 @@ void print_table(const Crowd& crowd, std::uint32_t largest) {
     }
 }
 
+// Without a pool, 100,000 instances do not fit into a storage block of 128 MiB.
+void print_pool(const Crowd& crowd, std::uint32_t largest) {
+  constexpr std::uint32_t most_without = 10'000;
+  std::printf(
+      "                 ms of a frame   bytes of an instance\n"
+      "instances   pool         clips      host    OpenGL\n");
+  for (std::uint32_t count = 100; count <= largest; count *= 10)
+    for (const bool has_pool : {false, true}) {
+      if (!has_pool && count > most_without) continue;
+      Stage stage(crowd.context, crowd.model, crowd.bones, count, 0, has_pool);
+      const double seconds = median_seconds(stage.clips_frame(crowd.clips));
+      std::printf("%9u   %4s   %11.3f   %7.0f   %7.0f\n", count, has_pool ? "yes" : "no", 1e3 * seconds,
+                  double(stage.scene_info().memory_bytes) / count,
+                  double(stage.gl_info().buffer_bytes) / count);
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const bool is_table = argc > 1 && std::string_view(argv[1]) == "table";
+  const std::string_view mode = argc > 1 ? argv[1] : "";
+  const bool is_pool = mode == "pool", is_table = mode == "table" || is_pool;
   const char* number = is_table ? (argc > 2 ? argv[2] : "10000") : (argc > 1 ? argv[1] : "10000");
   const auto count = static_cast<std::uint32_t>(std::atoi(number));
   Crowd crowd{};
@@ -336,7 +365,9 @@ int main(int argc, char** argv) {
   need_ok(nook_model_load(crowd.context, bytes.data(), bytes.size(), &crowd.model));
   need_ok(nook_clips_load(crowd.context, crowd.model, clip_bytes.data(), clip_bytes.size(), &crowd.clips));
   crowd.bones = static_cast<std::uint32_t>(character.bone_count());
-  if (is_table) {
+  if (is_pool) {
+    print_pool(crowd, count);
+  } else if (is_table) {
     print_table(crowd, count);
   } else {
     std::printf("%u instances of %u bones; CPU time of a frame in µs for each instance\n", count,
