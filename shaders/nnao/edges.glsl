@@ -8,7 +8,10 @@ struct NookNeighbours {
   // a plane, the slopes on both sides of an axis are equal, because 1 / depth (orthographic: depth) is linear
   // on the screen.
   vec4 slope;
-  vec4 connected;  // 1: the neighbour is on the same surface; 0: there is an edge, or no neighbour
+  // 1: the neighbour is on the same surface; 0: there is an edge, or no neighbour. A texel that has hardly any
+  // connected neighbour is connected a little to all that have a surface. Otherwise nothing would remove its
+  // noise, and thin gaps would be rows of dots. XeGTAO's denoiser does the same.
+  vec4 connected;
 };
 
 NookNeighbours nook_neighbours_of(ivec2 texel, float depth) {
@@ -24,13 +27,12 @@ NookNeighbours nook_neighbours_of(ivec2 texel, float depth) {
   vec4 bend = 0.5 * abs(found.slope.xxzz - found.slope.yyww);
   vec4 off = min(abs(found.slope), bend) * nook_edge_scale(depth);
   found.connected = min(clamp(1.25 - off, 0.0, 1.0), inside);
+  float least = 0.5 - 0.2 * dot(found.connected, vec4(1.0));
+  found.connected = max(found.connected, mix(vec4(0.0), min(vec4(least), inside), notEqual(depths, vec4(nook_no_surface))));
   return found;
 }
 
-// Packs `connected` into 8 bits, two for each neighbour. Returns a multiple of 1 / 255. A texel that has hardly
-// any connected neighbour is connected to all four a little. Otherwise nothing would remove its noise, and thin
-// gaps would be rows of dots. XeGTAO's denoiser does the same.
+// Packs `connected` into 8 bits, two for each neighbour. Returns a multiple of 1 / 255.
 float nook_packed_edges(vec4 connected) {
-  connected = max(connected, vec4(0.5 - 0.2 * dot(connected, vec4(1.0))));
   return dot(floor(3.0 * connected + 0.5), vec4(64.0, 16.0, 4.0, 1.0)) / 255.0;
 }

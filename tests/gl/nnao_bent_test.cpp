@@ -124,8 +124,8 @@ TEST_CASE("nnao: the bent normal of a plane is its normal, and the sky's points 
       }
       INFO("half " << half << ", normal " << normal.x << " " << normal.y << " " << normal.z);
       // The 8 bits: see above. Half the texels are decoded for a viewer a pixel aside, which is 1.5 degrees
-      // here.
-      CHECK(largest < (half ? 3.5f : 2.0f));
+      // here. At the border the filter has texels on one side alone, which adds a degree at half resolution.
+      CHECK(largest < (half ? 4.5f : 2.0f));
     }
 }
 

@@ -84,12 +84,25 @@ TEST_CASE("a step in depth is an edge on both sides, and the normal does not lea
   }
 }
 
+TEST_CASE("a lone pixel is connected a little to its neighbours, but not to the sky") {
+  Picture picture = plane({0, 0, 1}, false);
+  const auto connected_at = [&](std::uint32_t x, std::uint32_t y) {
+    return neighbours_of(picture.view(), x, y, 0.05f).connected;
+  };
+  picture.depth[8 * width + 12] = 4;
+  CHECK(connected_at(12, 8) == std::array<float, 4>{0.5f, 0.5f, 0.5f, 0.5f});
+  picture.depth[8 * width + 11] = 4;  // two pixels have one connection each
+  CHECK(connected_at(12, 8)[0] == 1);
+  CHECK(std::abs(connected_at(12, 8)[1] - 0.3f) < 1e-6f);
+  picture.depth[8 * width + 13] = 4;  // the middle of a line is nearly apart from both sides
+  CHECK(std::abs(connected_at(12, 8)[2] - 0.1f) < 1e-6f);
+  CHECK(packed_edges(connected_at(12, 8)) == (3 << 6 | 3 << 4));
+  picture.depth[8 * width + 11] = picture.depth[8 * width + 13] = sky;
+  CHECK(connected_at(12, 8) == std::array<float, 4>{0, 0, 0.5f, 0.5f});
+}
+
 TEST_CASE("edges are kept in two bits each") {
-  // A pixel without any connected neighbour is connected to all four by 2 of 3, and by less with each
-  // neighbour.
-  CHECK(packed_edges({0, 0, 0, 0}) == (2 << 6 | 2 << 4 | 2 << 2 | 2));
-  CHECK(packed_edges({1, 0, 0, 0}) == (3 << 6 | 1 << 4 | 1 << 2 | 1));
-  CHECK(packed_edges({1, 1, 0, 0}) == (3 << 6 | 3 << 4));
+  CHECK(packed_edges({0, 0, 0, 0}) == 0);
   CHECK(packed_edges({1, 1, 1, 1}) == 255);
   CHECK(packed_edges({1, 0, 0.34f, 0.6f}) == (3 << 6 | 0 << 4 | 1 << 2 | 2));
 }

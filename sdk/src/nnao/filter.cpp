@@ -46,6 +46,10 @@ Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, flo
     const float off = std::min(std::abs(found.slope[i]), bend) * (orthographic ? 1 : depth) / tolerance;
     found.connected[i] = inside[i] ? std::clamp(1.25f - off, 0.0f, 1.0f) : 0;
   }
+  const float least =
+      0.5f - 0.2f * (found.connected[0] + found.connected[1] + found.connected[2] + found.connected[3]);
+  for (std::size_t i = 0; i < 4; ++i)
+    if (inside[i] && depths[i] != sky_depth) found.connected[i] = std::max(found.connected[i], least);
   return found;
 }
 
@@ -61,10 +65,8 @@ Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Ne
 }
 
 std::uint8_t packed_edges(const std::array<float, 4>& connected) {
-  const float least = 0.5f - 0.2f * (connected[0] + connected[1] + connected[2] + connected[3]);
   std::uint32_t bits = 0;
-  for (const float edge : connected)
-    bits = bits << 2 | std::uint32_t(std::floor(3 * std::max(edge, least) + 0.5f));
+  for (const float edge : connected) bits = bits << 2 | std::uint32_t(std::floor(3 * edge + 0.5f));
   return std::uint8_t(bits);
 }
 

@@ -17,7 +17,9 @@ struct Neighbours {
   // the neighbour's depth (orthographic: not divided). On a plane, the slopes on both sides of a pixel are
   // equal, because 1 / depth (orthographic: depth) is linear on the screen.
   std::array<float, 4> slope{};
-  // 1 if the neighbour is on the same surface; 0 at an edge or at the border of the screen.
+  // 1 if the neighbour is on the same surface; 0 at an edge or at the border of the screen. A pixel that has
+  // hardly any connected neighbour is connected a little to all that have a surface. Otherwise nothing would
+  // remove its noise, and thin gaps would be rows of dots.
   std::array<float, 4> connected{};
 };
 
@@ -30,9 +32,7 @@ Neighbours neighbours_of(const View& view, std::uint32_t x, std::uint32_t y, flo
 // because depth changes more steeply across a silhouette than on the pixel's own surface.
 Vec3 rebuilt_normal(const View& view, std::uint32_t x, std::uint32_t y, const Neighbours& neighbours);
 
-// Packs the four values of `connected` into two bits each. Two bits can represent 0, 1/3, 2/3 and 1. A pixel
-// that has hardly any connected neighbour is connected to all four a little. Otherwise nothing would remove
-// its noise, and thin gaps would be rows of dots.
+// Packs the four values of `connected` into two bits each. Two bits can represent 0, 1/3, 2/3 and 1.
 std::uint8_t packed_edges(const std::array<float, 4>& connected);
 
 // The pass filters along x first and then along y.
