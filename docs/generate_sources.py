@@ -33,7 +33,7 @@ def code(names):
 
 
 def file_address(repository, commit, path):
-    """The address of a file or folder of a repository on GitHub."""
+    """Returns the address of a file or folder of a repository on GitHub."""
     repository = repository.removesuffix(".git")
     return f"{repository}/tree/{commit}/{path}" if commit else f"{repository}/tree/HEAD/{path}"
 

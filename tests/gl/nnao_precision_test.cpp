@@ -150,13 +150,14 @@ TEST_CASE("nnao: the error of each stage in medium precision is printed, and the
           pass.name, name.c_str(), sum.squared / sum.pixels, sum.squared / high,
           100 * sum.changed / sum.pixels, 100 * sum.beyond / sum.pixels);
     // The pass draws its filter at half resolution in medium precision. AO is rounded to 8 bits afterwards,
-    // so that 1 to 4 % of the pixels take the next step. At an rms error of 0.065, the squared error changes
-    // by 2 * 0.04 * 0.065 / 255 / 0.0042 = 0.5 % if all of them step away from the truth. Half of that may
-    // happen; measured: -0.1 to 0.1 %.
+    // so that 1 to 5 % of the pixels take the next step. At an rms error of 0.065, the squared error changes
+    // by 2 * 0.05 * 0.065 / 255 / 0.0042 = 0.6 % if all of them step away from the truth. Less than half of
+    // that may happen; measured: -0.1 to 0.1 %. A mean of seven texels can be two steps away in a pixel of
+    // thousands.
     if (pass.half) {
       for (const char* const filter : {"filter_x", "filter_y"}) {
         CHECK(measured.at(filter).squared < 1.0025 * high);
-        CHECK(measured.at(filter).beyond == 0);
+        CHECK(measured.at(filter).beyond < 1e-3 * measured.at(filter).pixels);
       }
     }
   }

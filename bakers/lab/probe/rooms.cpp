@@ -145,7 +145,7 @@ void build_house(Builder& b) {
   build_shell(b, Window{1.0f, 2.8f, 0.9f, 2.1f});
   const std::uint32_t wall = b.surface({0.7f, 0.68f, 0.65f}), wood = b.surface({0.5f, 0.35f, 0.2f}),
                       cloth = b.surface({0.5f, 0.2f, 0.2f});
-  // The corridor's wall, with a door to the room with the window.
+  // The corridor's wall has a door to the room with the window.
   b.along_x(0, 0.6f, 3.6f, wall);
   b.along_x(0.6f, 1.5f, 3.6f, wall, door_height);
   b.along_x(1.5f, width, 3.6f, wall);

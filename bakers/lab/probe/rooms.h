@@ -38,14 +38,14 @@ struct Rooms {
   std::size_t neighbour = 0;              // index of the bright room behind the sealed room's wall
 };
 
-// Six rooms of 3.4 to 5 metres along a corridor, with walls of 0.1 metres. The lamps have different colours,
-// and the brightest lamp is 30 times as bright as the dimmest. Two rooms have an open door to the corridor.
-// Three rooms are closed and lit. One room is sealed and does not have a lamp.
+// Makes six rooms of 3.4 to 5 metres along a corridor, with walls of 0.1 metres. The lamps have different
+// colours, and the brightest lamp is 30 times as bright as the dimmest. Two rooms have an open door to the
+// corridor. Three rooms are closed and lit. One room is sealed and does not have a lamp.
 Rooms make_rooms();
 
-// A house of two rooms and a corridor, with walls of 0.06 metres. One room has a window and an open door to
-// the corridor. The other room is closed and has the brightest lamp. A sealed cupboard of 1.4 x 0.9 metres
-// lies between both rooms and the corridor. Nook's fit of walls was not tuned on this house.
+// Makes a house of two rooms and a corridor, with walls of 0.06 metres. One room has a window and an open
+// door to the corridor. The other room is closed and has the brightest lamp. A sealed cupboard of 1.4 x 0.9
+// metres lies between both rooms and the corridor. Nook's fit of walls was not tuned on this house.
 Rooms make_house();
 
 }  // namespace nook::lab

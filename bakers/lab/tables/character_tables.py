@@ -67,7 +67,7 @@ def summary(results):
 
 
 def surface_columns(r):
-    """The errors between vertices: the model's, the static bake's, with exact AO of vertices, and over the static bake's."""
+    """Returns the errors between vertices of the model, of the static bake and of exact AO, and the model's over the static bake's."""
     return [number(r["mse_surface"]), number(r["mse_surface_static"]), number(r["mse_surface_exact_vertices"]),
             f"{r['ratio_to_static_surface']:.3f}"]
 

@@ -48,7 +48,8 @@ TEST_CASE("evaluate nnao measures every method on the thin scene and draws a she
   REQUIRE(run.exit_code == 0);
   CHECK(run.out.find("gtao_bitmask") != std::string::npos);
   CHECK(folder.names() == std::vector<std::string>{"r.json", "sheets"});
-  for (const char* picture : {"thin_0", "thin_0_pairs", "thin_0_presets", "nnao_filters", "thin_0_nnao_units"})
+  for (const char* picture :
+       {"thin_0", "thin_0_pairs", "thin_0_presets", "nnao_filters", "thin_0_nnao_units"})
     CHECK(read_text(folder.path("sheets/" + std::string(picture) + ".png")).substr(1, 3) == "PNG");
   const auto report = nlohmann::json::parse(read_text(folder.path("r.json")));
   CHECK(report.at("scenes").at(0).at("noise_floor_mse") > 0);
