@@ -121,14 +121,14 @@ GLuint NetworkPass::draw(const GpuView& view, const AoRequest& request, bool blu
 
 int NetworkPass::fetches(bool blurred) const {
   // Counts fetches. The first stage reads the host's depth. The main stage reads depth and its four
-  // neighbours, the host's normal, and the taps. Each filter reads AO five times along each axis. In the
+  // neighbours, the host's normal, and the taps. Each filter reads AO seven times along each axis. In the
   // paper's form, the stage for normals also reads depth, its four neighbours and the normal. At half
   // resolution, a quarter of the texels have these fetches. The upsample then reads the host's depth, four
   // depths and four AO values.
   const int before = horizon_form() ? 1 + 5 + 1 + info_.taps : 1 + 2 * 6 + 6 * info_.taps;
-  const int filters = blurred ? 10 * form_.blur : 0;
+  const int filters = blurred ? 14 * form_.blur : 0;
   if (form_.half_resolution) return (before + filters) / 4 + 9;
-  return before + (blurred ? filters : 10);
+  return before + (blurred ? filters : 14);
 }
 
 }  // namespace nook::measure

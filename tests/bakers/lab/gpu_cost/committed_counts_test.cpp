@@ -25,9 +25,9 @@ TEST_CASE(
     "tap") {
   for (const int taps : {9, 16, 32, 64})
     CHECK(fetches_of("occlusion.frag, " + std::to_string(taps)) == 6 + taps);
-  // The filter takes five values of AO along each axis.
-  CHECK(fetches_of("filter.frag along x") == 5);
-  CHECK(fetches_of("resolve.frag") == 5);
+  // The filter takes seven values of AO along each axis.
+  CHECK(fetches_of("filter.frag along x") == 7);
+  CHECK(fetches_of("resolve.frag") == 7);
 }
 
 TEST_CASE("HBAO fetches depth and normal of the pixel and one depth a tap") {
