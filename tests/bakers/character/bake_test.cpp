@@ -88,9 +88,8 @@ TEST_CASE("a learned gamma fits nearly as well as the best fixed one") {
   const BakeResult learned = bake_character(mesh, poses, settings);
   INFO("gamma " << learned.model.kernel.gamma << " error " << learned.report.mse_held_out << " lowest "
                 << least);
-  // The choice comes from fits of 15 steps, a twentieth of the bake. With six seeds and two compilers, the
-  // error was at most 1.25 times the lowest one, and the error with the exponent 1 was 1.4 to 1.8 times the
-  // lowest.
+  // The choice comes from fits of 15 steps, a twentieth of the bake. With six seeds, the error was at
+  // most 1.25 times the lowest one, and the error with the exponent 1 was 1.4 to 1.8 times the lowest.
   CHECK(learned.report.mse_held_out < 1.35 * least);
 }
 
