@@ -265,7 +265,7 @@ void add_bake_character(Command bake) {
   command
       .add_option("--auto-poses", o.auto_poses,
                   "number of generated poses. Default: 300 (--preset draft), 2700 (standard) or 10000 "
-                  "(production). With --poses all, the poses of clips replace up to half of them")
+                  "(production). With --poses all, variants of clip poses replace up to half of them")
       .check(in_range(1, 1000000));
   command
       .add_option("--samples-per-clip", o.samples_per_clip,
