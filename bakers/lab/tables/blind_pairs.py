@@ -38,13 +38,15 @@ def chosen_views():
 
 
 def read_panels(path):
+    if not path.exists():
+        raise SystemExit(f"{path} does not exist; draw the sheets with the command that --help shows")
     sheet = numpy.asarray(Image.open(path).convert("L"), dtype=numpy.float32) / 255
     panels = {}
     for i, name in enumerate(PANELS):
         left, top = i % COLUMNS * (WIDTH + GAP), i // COLUMNS * (HEIGHT + GAP)
         panels[name] = sheet[top:top + HEIGHT, left:left + WIDTH]
         if panels[name].shape != (HEIGHT, WIDTH):
-            raise SystemExit(f"{path} has no panel of {WIDTH} x {HEIGHT} pixels for {name}; see the command above")
+            raise SystemExit(f"{path} has no panel of {WIDTH} x {HEIGHT} pixels for {name}; see the command in --help")
     return panels
 
 
@@ -106,7 +108,10 @@ def bounds(chosen, count):
 
 
 def count(options):
-    key = json.loads((options.pairs / "key.json").read_text())
+    path = options.pairs / "key.json"
+    if not path.exists():
+        raise SystemExit(f"{path} does not exist; give the folder into which `make` wrote the pairs")
+    key = json.loads(path.read_text())
     people = [read_answers(path, key) for path in options.answers]
     print("| Nook beside | chosen | of | share | 95 % bounds | each person |\n|---|---|---|---|---|---|")
     for peer, name in [*NAMES.items(), (None, "all")]:
