@@ -58,7 +58,7 @@ NOOK_API nook_result nook_bake_start(const void* desc, nook_bake_job* out);
 /* Gives the state of a job and its progress. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* progress);
 
-/* Requests that the job stop soon, and returns at once. Any thread. Errors: INVALID_ARGUMENT. */
+/* Asks the job to stop, and returns at once. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_job_cancel(nook_bake_job job);
 
 /* Waits until the job ends and returns its result. You may call it any number of times.
@@ -389,8 +389,8 @@ enum {
   NOOK_BAKE_METHOD_CTA = 1,
   /* N-mode singular value decomposition: one cluster. */
   NOOK_BAKE_METHOD_N_SVD = 2,
-  /* Experimental: a small neural network over features of the texels. It trains for minutes, and is better
-   * than the other methods on flat and glossy materials (docs/materials.md). It compresses the VOTF
+  /* Experimental: a small neural network that reads features of the texels. It trains for minutes, and is
+   * better than the other methods on flat and glossy materials (docs/materials.md). It compresses the VOTF
    * (view-dependent occlusion, see nook_material.h) by K-CTA, and the rank fields apply only to the VOTF. */
   NOOK_BAKE_METHOD_NEURAL = 3
 };

@@ -137,14 +137,14 @@ typedef struct nook_gl_view {
   const char* glsl;
 } nook_gl_view;
 
-/* Tells in which buffer the values of an instance are: for NOOK_CHANNEL_AO, or for
+/* Describes the buffer that holds the values of an instance: for NOOK_CHANNEL_AO, or for
  * NOOK_CHANNEL_DIRECTIONAL_AO if the instance had a light in the last nook_gl_scene_update. Buffer, offset
  * and texture stay the same until you remove the instance, destroy the scene or `gl`, or call
  * nook_gl_scene_release or nook_scene_set_model. AO is 1 before the first update. After an update you need no
  * barrier to read the values as vertex attributes, texture buffers, shader storage or by buffer reads. This
- * function makes no OpenGL call.
- * Context thread. Errors: INVALID_ARGUMENT (also for NOOK_CHANNEL_BENT_NORMAL, which your vertex shader
- * computes), INVALID_HANDLE (the id is unknown, the instance is not prepared yet, or it had no light), GL. */
+ * function makes no OpenGL call. Context thread. Errors: INVALID_ARGUMENT (also for NOOK_CHANNEL_BENT_NORMAL,
+ * which your vertex shader computes), INVALID_HANDLE (the id is unknown, the instance is not prepared yet, or
+ * it had no light), GL. */
 NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                         nook_channel channel, nook_gl_view* view);
 
@@ -153,7 +153,7 @@ NOOK_API nook_result nook_gl_scene_view(nook_gl gl, nook_scene scene, nook_insta
 NOOK_API nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                         nook_channel channel, float* out, uint32_t count);
 
-/* The buffer or texture of yours that nook_gl_scene_write writes AO to. Set all fields to 0 first. */
+/* Your buffer or texture to which nook_gl_scene_write writes AO. Set all fields to 0 first. */
 typedef struct nook_gl_ao_target {
   /* sizeof(nook_gl_ao_target). */
   uint32_t struct_size;
@@ -178,8 +178,8 @@ typedef struct nook_gl_ao_target {
   uint32_t texture_width;
 } nook_gl_ao_target;
 
-/* Copies the AO of the last nook_gl_scene_update to a buffer or texture of yours on the GPU. The values of
- * the `count` instances are written in the order of `instances`. You need no barrier before vertex fetches,
+/* Copies the AO of the last nook_gl_scene_update to your own buffer or texture on the GPU. The values of the
+ * `count` instances are written in the order of `instances`. You need no barrier before vertex fetches,
  * texture fetches and buffer reads. The call does not wait for the GPU. The first call with a format creates
  * a program. Context thread. Errors: INVALID_ARGUMENT (also if the target is too small), INVALID_HANDLE (an
  * id is unknown, or an instance is not prepared yet), UNSUPPORTED (a stride without compute shaders), GL. */
@@ -251,10 +251,10 @@ typedef int32_t nook_gbuffer_ao;
 enum {
   /* A texture that the pass owns; see nook_nnao_info and nook_world_info. */
   NOOK_TARGET_OWN = 0,
-  /* Level 0 of a 2D texture of yours, or of a texture array for passes with views. */
+  /* Level 0 of your own 2D texture, or of your texture array for passes with views. */
   NOOK_TARGET_TEXTURE = 1,
-  /* The first draw buffer of a framebuffer of yours; framebuffer 0 is the window. The contents of further
-   * draw buffers become undefined. Not for passes with views. */
+  /* The first draw buffer of your own framebuffer; framebuffer 0 is the window. The contents of other draw
+   * buffers become undefined. Not for passes with views. */
   NOOK_TARGET_FRAMEBUFFER = 2
 };
 typedef int32_t nook_target;

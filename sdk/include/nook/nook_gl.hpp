@@ -58,7 +58,7 @@ class Gl : public Unique<nook_gl, nook_gl_destroy> {
     check(nook_gl_scene_view(get(), scene.get(), id, channel, &view));
     return view;
   }
-  // Copies AO to a buffer or texture of yours on the GPU. This function sets target.struct_size.
+  // Copies AO to your own buffer or texture on the GPU. This function sets target.struct_size.
   void write_ao(const Scene& scene, const std::vector<nook_instance_id>& ids,
                 nook_gl_ao_target target) const {
     target.struct_size = sizeof target;

@@ -50,7 +50,7 @@ typedef struct nook_nnao_desc {
   /* The number of pixels that the network reads around each pixel: 9, 16, 32, 64, 128 or 256. Default -1: the
    * preset's value. */
   int32_t taps;
-  /* 1: AO is computed at half width and height, and upsampled joint-bilaterally. Default -1: the preset's. */
+  /* 1: AO has half width and height, and a joint-bilateral filter upsamples it. Default -1: the preset's. */
   int32_t half_resolution;
   /* The number of bilateral filters over 7 x 7 pixels: 0, 1 or 2. A filter averages out the noise of the
    * taps. The second filter removes noise at edges, but also fine lines. Default -1: the preset's. */
@@ -169,7 +169,7 @@ typedef struct nook_nnao_info {
    * unit vectors in one space, roughness is perceptual (the GGX width is its square):
    *     vec3 nook_nnao_bent_normal(vec4 texel)               view space, of a texel with bent normals
    *     float nook_nnao_cone_cosine(float ao)                cosine of the open cone's half angle
-   * vec3 nook_nnao_multi_bounce(float ao, vec3 albedo) AO that includes light from nearby surfaces
+   *     vec3 nook_nnao_multi_bounce(float ao, vec3 albedo)   AO that includes light from nearby surfaces
    *     float nook_nnao_specular_occlusion(vec3 bent_normal, float ao, vec3 normal, vec3 to_viewer,
    *                                        float roughness)
    * Look up the irradiance of a probe along the bent normal and multiply it by AO. Multiply glossy

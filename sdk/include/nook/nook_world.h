@@ -82,8 +82,8 @@ typedef struct nook_world_frame_desc {
   /* Capsules besides the scene's, in world space; default none. */
   const nook_capsule* capsules;
   uint32_t capsule_count;
-  /* A difference of AO, 0 to 1, default 1/1024. A body is ignored where it darkens AO by less than this. 0:
-   * no body is ignored. */
+  /* A difference of AO, 0 to 1, default 1/1024. A body is ignored where it lowers AO by less than this. 0: no
+   * body is ignored. */
   float cutoff_error;
   /* A difference of AO, 0 to 1, default 1/256. At a distance, one capsule replaces a limb, or farther away a
    * whole body, if that changes AO by no more than about this value (root mean square). 0: no replacement. */

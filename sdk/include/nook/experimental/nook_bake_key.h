@@ -17,10 +17,10 @@ extern "C" {
  * The key is a SHA-256 hash. It depends on all settings, the content that the bake reads, and the version
  * number of the baking code. It also depends on the versions of Nook, Embree and the compiler, and on the CPU
  * instruction set. It does not depend on threads, progress and file names. Two bakes with the same key give
- * the same file. `size` is the size of `key`, at least NOOK_BAKE_KEY_SIZE. The call takes about as long as it
- * takes to read the data of the descriptor. On failure, `key` is not changed. Any thread. Errors:
- * INVALID_ARGUMENT and BAD_FILE as nook_bake_start, INVALID_ARGUMENT also if `size` is too small, UNSUPPORTED
- * (NOOK_ISA in the environment names an instruction set that this processor lacks), OUT_OF_MEMORY. */
+ * the same file. `size` is the size of `key`, at least NOOK_BAKE_KEY_SIZE. The call takes about as long as
+ * reading the data of the descriptor. On failure, `key` is not changed. Any thread. Errors: INVALID_ARGUMENT
+ * and BAD_FILE as nook_bake_start, INVALID_ARGUMENT also if `size` is too small, UNSUPPORTED (NOOK_ISA in the
+ * environment names an instruction set that this processor lacks), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_key(const void* desc, char* key, size_t size);
 
 #ifdef __cplusplus

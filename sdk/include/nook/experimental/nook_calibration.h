@@ -5,8 +5,8 @@
  *     nook_scene_record_pose(scene, instance, NULL, &size);
  *     nook_scene_record_pose(scene, instance, bytes, &size);
  *     fwrite(bytes, 1, size, poses);  // opened with "ab"
- * Then `nook bake character HERO.glb --model HERO.nook --calibrate POSES -o NEW.nook` fits two numbers of
- * each vertex to these poses, the constant and the scale of its AO. It changes nothing else. */
+ * Then `nook bake character HERO.glb --model HERO.nook --calibrate POSES -o NEW.nook` fits two numbers for
+ * each vertex to these poses: the constant and the scale of its AO. It changes nothing else. */
 #ifndef NOOK_CALIBRATION_H
 #define NOOK_CALIBRATION_H
 
@@ -20,9 +20,8 @@ extern "C" {
  * all poses of a model. A pose file is a sequence of records, from any number of bodies; the baker uses the
  * records whose bones match its character. All numbers in a record are little-endian. A record begins with
  * the 8 bytes "NOOKPOSE". The version, which is 1, and the number of bones follow in 4 bytes each. The next 8
- * bytes are the XXH64 hash of all bone names, each followed by a zero byte. At the end, there are 12 floats
- * for each bone. These are the matrix from rest space to world space: three rows of rotation and scale |
- * translation.
+ * bytes are the XXH64 hash of all bone names, each followed by a zero byte. The record ends with 12 floats
+ * for each bone, the matrix from rest space to world space: three rows of rotation and scale | translation.
  * Any thread, while no call changes the scene. Errors: INVALID_ARGUMENT (also if *size is too small; *size is
  * then the required size), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_record_pose(nook_scene scene, nook_instance_id instance, void* bytes,

@@ -5,9 +5,9 @@
  *
  * Each frame, call nook_scene_set_clips once for each nook_clips whose instances move, and then
  * nook_gl_scene_update. Your vertex shader decodes the AO of the clip, as after nook_scene_set_clip
- * (nook_clips.h). Instances also behave in all other ways as after nook_scene_set_clip. Calls that need an
- * instance's bones on the CPU, such as nook_scene_read_key_points, decode the bones first. nook_world_render
- * decodes only the bones to which capsules are attached.
+ * (nook_clips.h). Otherwise, instances behave as after nook_scene_set_clip. Calls that need an instance's
+ * bones on the CPU, such as nook_scene_read_key_points, decode the bones first. nook_world_render decodes
+ * only the bones to which capsules are attached.
  *
  * Culling, the ground, neighbours and levels of detail use a bounding sphere of each body. The library
  * computes the sphere of each frame when it loads the clips. Between two frames, it interpolates their
@@ -37,7 +37,7 @@ typedef struct nook_instance_clip {
  * nook_scene_set_clip, so updates may cull fewer casters. The call does not allocate and does not call
  * OpenGL. The next nook_gl_scene_prepare or nook_gl_scene_update allocates if an instance plays clips that
  * this nook_gl has not uploaded yet. One at a time. Errors: INVALID_ARGUMENT (as nook_scene_set_clip; also if
- * an instance occurs twice, or a place scales unevenly), INVALID_HANDLE. */
+ * an instance occurs twice, or a place_3x4 scales unevenly), INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_clips(nook_scene scene, nook_clips clips,
                                           const nook_instance_clip* instances, uint32_t count);
 

@@ -1,4 +1,4 @@
-// C++17 wrapper of the clips of a crowd: nook_clip_crowds.h.
+// C++17 wrapper of nook_clip_crowds.h, which plays clips on a crowd.
 #ifndef NOOK_CLIP_CROWDS_HPP
 #define NOOK_CLIP_CROWDS_HPP
 

@@ -103,10 +103,9 @@ enum {
   NOOK_TERM_ALL = 15
 };
 
-/* Chooses the casters that updates evaluate, for debug views and artists. `terms` is a sum of NOOK_TERM_
- * values; default NOOK_TERM_ALL. Without NOOK_TERM_SELF, the bias of the fit is left out too, so that an
- * instance without other casters has AO 1.
- * One at a time. Errors: INVALID_ARGUMENT. */
+/* Chooses the casters that updates evaluate, for debug views. `terms` is a sum of NOOK_TERM_ values; default
+ * NOOK_TERM_ALL. Without NOOK_TERM_SELF, the bias of the fit is left out too, so that an instance without
+ * other casters has AO 1. One at a time. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_terms(nook_scene scene, uint32_t terms);
 
 /* ---- Memory of a model on the GPU ---- */

@@ -1,4 +1,4 @@
-// C++17 wrappers of the functions for debug drawing: nook_debug.h.
+// C++17 wrappers of functions for debug views: nook_debug.h.
 #ifndef NOOK_DEBUG_HPP
 #define NOOK_DEBUG_HPP
 

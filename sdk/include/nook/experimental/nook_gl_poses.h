@@ -3,9 +3,9 @@
  * (nook_gl_info.tier), the calls fail with NOOK_ERROR_UNSUPPORTED. There, use baked clips (nook_clips.h) or
  * nook_scene_set_pose.
  *
- * Write the transforms of all instances to a buffer of yours, call nook_gl_scene_set_poses once for each
- * model, and then nook_gl_scene_update. Culling, the ground, neighbours and levels of detail run on the CPU
- * and need a bounding sphere of each body, which you pass with the instance.
+ * Write the transforms of all instances to your own buffer, call nook_gl_scene_set_poses once for each model,
+ * and then nook_gl_scene_update. Culling, the ground, neighbours and levels of detail run on the CPU and need
+ * a bounding sphere of each body, which you pass with the instance.
  *
  * Barriers and fences. If shaders wrote the transforms, call glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT)
  * before nook_gl_scene_set_poses. Other writes, such as glBufferSubData, transform feedback and unmapping,
@@ -84,9 +84,9 @@ typedef struct nook_gl_poses {
  * same poses set on the CPU within 1e-5, root mean square over a body.
  *
  * The call does not wait for the GPU. It queries OpenGL only if nook_gl_desc.state_mode or nook_gl_desc.debug
- * requires it. It allocates if you added instances since the last update, or if it sets the first pose on the
- * GPU of an instance of this model. The pose of an instance takes 48 bytes for each bone, plus 16 bytes, of
- * OpenGL memory. Context thread. Errors: INVALID_ARGUMENT (as nook_scene_set_pose, as far as the CPU can
+ * requires it. It allocates if you added instances since the last update, or if an instance of this model
+ * gets its first pose on the GPU. In OpenGL memory, the pose of an instance takes 48 bytes for each bone,
+ * plus 16 bytes. Context thread. Errors: INVALID_ARGUMENT (as nook_scene_set_pose, as far as the CPU can
  * check; also if the range is too small or misaligned, an instance occurs twice, the instances have different
  * models, or the scene has strict_poses), INVALID_HANDLE, UNSUPPORTED (the tier has no compute shaders, or
  * `texture` is not 0), GL, OUT_OF_MEMORY. */
@@ -100,38 +100,38 @@ NOOK_API nook_result nook_gl_scene_set_poses(nook_gl gl, nook_scene scene, const
 NOOK_API nook_result nook_gl_scene_read_pose(nook_gl gl, nook_scene scene, nook_instance_id instance,
                                              float* bones_3x4, uint32_t bone_count);
 
-/* A pool for a crowd in which most instances are far away. Without a pool, each instance has arrays of its
- * own, tens of kilobytes, even if nobody sees its AO. With a pool, only instances near the camera have them.
- * Every other instance is far: its AO is 1, and it takes about 500 bytes of host memory and no OpenGL
- * memory, if you give instance_count. If it plays a clip, your shader still multiplies by the clip's AO.
- * Use nook_scene_set_clips, or nook_gl_scene_set_poses. An instance that nook_scene_set_pose or
- * nook_scene_set_clip once posed keeps its bones on the CPU until you remove it, and these two calls allocate
- * for the first pose of each instance.
+/* A pool saves memory in a crowd in which most instances are far away. Without a pool, each instance has
+ * arrays of tens of kilobytes, even if nobody sees its AO. With a pool, only instances near the camera have
+ * arrays. All other instances are far: their AO is 1. If you set instance_count, a far instance takes about
+ * 500 bytes of host memory and no OpenGL memory. If it plays a clip, your shader still multiplies by the
+ * clip's AO. Pose the crowd with nook_scene_set_clips or nook_gl_scene_set_poses. nook_scene_set_pose and
+ * nook_scene_set_clip take more memory: they allocate at the first pose of each instance, which then keeps
+ * its bones on the CPU until you remove it.
  *
- * Who is near. nook_gl_scene_update gives a place to each instance that has a pose and whose sphere's centre
- * lies within `distance` of the camera (nook_scene_set_camera; without a camera, all are near). The same
- * update evaluates its AO. An instance leaves its place beyond 1.1 times the distance. If more instances of a
- * model are near than it has places, the nearest ones get them, and the others stay far. An instance in a
- * place counts as 1.1 times nearer, so that neighbours do not swap in each frame.
- * For poses on the GPU, nook_gl_scene_set_poses gives the places, because later the pose may be overwritten.
- * So set the camera before that call, and set the pose of an instance that comes near. If nook_gl lost the
- * poses of such an instance, it is far until its next pose, and no call fails.
+ * Near instances. nook_gl_scene_update gives a place to each posed instance whose bounding sphere has its
+ * centre within `distance` of the camera (nook_scene_set_camera; without a camera, all are near). The same
+ * update evaluates its AO. An instance leaves its place beyond 1.1 times `distance`. If a model has more near
+ * instances than places, the nearest instances get the places, and the others stay far. The distance of an
+ * instance in a place is divided by 1.1, so that instances do not swap places in every frame. For poses on
+ * the GPU, nook_gl_scene_set_poses assigns the places, because your buffer may be overwritten later. So set
+ * the camera before this call, and pass each instance that comes near. If the nook_gl lost the pose of an
+ * instance, the instance is far until its next pose, and no call fails.
  *
- * Views. All far instances of a model share one buffer of ones. So the view of nook_gl_scene_view changes
- * when an instance comes or goes, in nook_gl_scene_update and nook_gl_scene_set_poses.
- * nook_gl_scene_read_pool tells you the views of many instances, with a generation that changes with the
- * view. After nook_gl_scene_release, ask for all views again. nook_gl_scene_read and nook_gl_scene_write read
- * ones for a far instance.
+ * Views. All far instances of a model share one buffer of ones. So when an instance gets or leaves a place,
+ * in nook_gl_scene_update or nook_gl_scene_set_poses, its view changes. nook_gl_scene_read_pool gives the
+ * views of many instances, each with a generation number that changes with the view. After
+ * nook_gl_scene_release, get all views again. For a far instance, nook_gl_scene_read and nook_gl_scene_write
+ * give AO 1.
  *
- * What a far instance does not do. It darkens neither other instances nor the world in nook_world_render, and
- * nook_scene_link_nearest does not find it. Links and the ground stay set for the time when it is near. If a
- * near instance should get the shadow of each neighbour, choose the distance so much larger.
+ * Far instances do not darken other instances or the world (nook_world_render), and nook_scene_link_nearest
+ * does not find them. Their links and their ground stay set, and have an effect again when they are near. If
+ * every near instance should be darkened by all its neighbours, add the reach of a neighbour to `distance`.
  *
- * Calls that need the bones of all instances on the CPU refuse a scene with a pool with
- * NOOK_ERROR_UNSUPPORTED: nook_scene_update and nook_world_sample. So do nook_scene_set_light,
- * nook_gl_scene_set_poses with NOOK_POSE_FLAG_PARTIAL, and a nook_gl without compute shaders. nook_scene_read
- * (AO and bent normals), nook_scene_read_spheres, nook_scene_read_key_points, nook_scene_record_pose and
- * nook_scene_set_model refuse an instance that has no bones on the CPU. */
+ * If a scene has a pool, some calls fail with NOOK_ERROR_UNSUPPORTED. nook_scene_update and nook_world_sample
+ * fail because they need the bones of all instances on the CPU. nook_scene_set_light, nook_gl_scene_set_poses
+ * with NOOK_POSE_FLAG_PARTIAL, and calls with a nook_gl without compute shaders fail too. For an instance
+ * without bones on the CPU, nook_scene_read (AO and bent normals), nook_scene_read_spheres,
+ * nook_scene_read_key_points, nook_scene_record_pose and nook_scene_set_model fail. */
 typedef struct nook_gl_pool_desc {
   /* sizeof(nook_gl_pool_desc). */
   uint32_t struct_size;
@@ -140,13 +140,13 @@ typedef struct nook_gl_pool_desc {
   uint32_t places;
   /* Instances within this distance of the camera are near: metres, above 0. */
   float distance;
-  /* The number of instances that you will add, or 0. Nook reserves host memory for them, so that adding them
-   * does not leave room that nobody uses. */
+  /* The number of instances that you will add, or 0. Nook allocates host memory for this number. With 0, the
+   * memory grows in large steps, and part of it stays unused. */
   uint32_t instance_count;
 } nook_gl_pool_desc;
 
 /* Gives a scene a pool. Call it before you add instances; while the scene has instances, only the distance
- * may change. nook_gl_scene_prepare makes the places of the instances that you added, and then no update
+ * may change. nook_gl_scene_prepare creates the places of the instances that you added; after that, no update
  * allocates. The pool belongs to the scene: each nook_gl that evaluates the scene has places for it. Context
  * thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (gl has no compute shaders), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_set_pool(nook_gl gl, nook_scene scene, const nook_gl_pool_desc* desc);
@@ -157,39 +157,39 @@ typedef struct nook_gl_pool_view {
   uint32_t buffer;
   /* The model's file_vertex_count. */
   uint32_t count;
-  /* Another number after each change of this view. */
+  /* This number is different after each change of the view. */
   uint32_t generation;
-  /* 1 in a place of the pool, 0 far. */
+  /* 1: the instance has a place in the pool; 0: it is far. */
   uint32_t is_near;
 } nook_gl_pool_view;
 
 /* How full a pool is. */
 typedef struct nook_gl_pool_info {
   uint32_t struct_size;
-  /* Instances in a place. */
+  /* The number of instances that have a place. */
   uint32_t near_count;
-  /* Instances that are near enough, but stay far because their model has no place left. */
+  /* The number of instances that are near enough, but stay far because their model has no free place. */
   uint32_t waiting_count;
 } nook_gl_pool_info;
 
-/* Tells the views of `count` instances, and how full the pool was at the last update. `info` may be NULL. It
- * makes no OpenGL call and does not allocate. Context thread. Errors: INVALID_ARGUMENT (also: the scene has
- * no pool), INVALID_HANDLE (an id is unknown, an instance is not prepared yet), GL. */
+/* Gives the views of `count` instances, and how full the pool was at the last update. `info` may be NULL. The
+ * call makes no OpenGL call and does not allocate. Context thread. Errors: INVALID_ARGUMENT (also if the
+ * scene has no pool), INVALID_HANDLE (an id is unknown, an instance is not prepared yet), GL. */
 NOOK_API nook_result nook_gl_scene_read_pool(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
                                              uint32_t count, nook_gl_pool_view* views,
                                              nook_gl_pool_info* info);
 
-/* A table on the GPU with one entry for each instance of a scene with a pool. With it, your shaders find the
- * AO of a crowd that you draw with indirect or multi-draw calls, and you need not ask for views.
+/* A table on the GPU with one entry for each instance of a scene with a pool. If you draw a crowd with
+ * indirect or multi-draw calls, your shaders use this table instead of views to find the AO.
  *
- * The entry of an instance has the index (instance & 0xfffffu) - 1. It has four 32-bit numbers, a uvec4 in
- * std430, from the start of the buffer:
+ * The table begins at the start of the buffer. The entry of an instance has the index (instance & 0xfffffu) -
+ * 1, and consists of four 32-bit numbers, a uvec4 in std430:
  *   x  the OpenGL name of the buffer with the instance's AO; 0: far, so AO is 1
  *   y  the index of the first vertex's AO in this buffer, in floats; 0 if far
  *   z  the generation of the view (nook_gl_pool_view.generation)
  *   w  the level of detail of the last update (nook_scene_instance_info.level); 0 if far
- * Entries without an instance are 0. Bind one of the model's AO buffers, pass its name to the shader, and
- * read, in file order:
+ * Entries without an instance are 0. Bind one of the model's AO buffers and pass its name to the shader. Then
+ * read the AO of a vertex, in file order:
  *   uvec4 entry = entries[(instance & 0xfffffu) - 1u];
  *   float ao = entry.x == bound_buffer ? values[entry.y + vertex] : 1.0;
  * If a model has several AO buffers, bind them all and choose by entry.x, or draw once for each buffer. */
@@ -202,17 +202,17 @@ typedef struct nook_gl_pool_table {
   uint32_t ao_buffer_count;
 } nook_gl_pool_table;
 
-/* Tells the table of a scene, and the OpenGL names of the AO buffers of a model: as many as fit into
- * `ao_buffers`, which may be NULL if `capacity` is 0. The first call makes the table: 16 bytes of OpenGL
- * memory and 16 of host memory for each instance. From then on, nook_gl_scene_update,
+/* Gives the table of a scene, and the OpenGL names of the AO buffers of a model: as many as fit into
+ * `ao_buffers`, which may be NULL if `capacity` is 0. The first call creates the table, which takes 16 bytes
+ * of OpenGL memory and 16 bytes of host memory for each instance. From then on, nook_gl_scene_update,
  * nook_gl_scene_set_poses and nook_gl_scene_prepare write the entries that change, with glBufferSubData. So
- * commands that you issue after these calls see the new entries and their AO without a barrier. If an update
- * fails, the entries stay as they were until the next call.
- * The buffers stay until you add or remove instances, change a model, or call nook_gl_scene_release. Then
- * ask again, after nook_gl_scene_prepare or nook_gl_scene_update. The table's buffer stays as long as you
- * have at most nook_gl_pool_desc.instance_count instances.
- * The call prepares the scene, as nook_gl_scene_prepare does. Context thread. Errors: INVALID_ARGUMENT (also:
- * the scene has no pool), UNSUPPORTED, GL, OUT_OF_MEMORY. */
+ * OpenGL commands that you issue after these calls read the new entries and their AO without a barrier. If an
+ * update fails, the entries stay as they were until the next call. The buffers stay until you add or remove
+ * instances, change a model, or call nook_gl_scene_release. Then call this function again, after
+ * nook_gl_scene_prepare or nook_gl_scene_update. The table's buffer stays as long as you have at most
+ * nook_gl_pool_desc.instance_count instances. The call prepares the scene, as nook_gl_scene_prepare does.
+ * Context thread. Errors: INVALID_ARGUMENT (also if the scene has no pool), UNSUPPORTED,
+ * GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_read_pool_table(nook_gl gl, nook_scene scene, nook_model model,
                                                    nook_gl_pool_table* table, uint32_t* ao_buffers,
                                                    uint32_t capacity);

@@ -1,5 +1,4 @@
-// C++17 wrapper of poses on the GPU and of the pool of a scene: nook_gl_poses.h. The functions belong to the
-// context thread.
+// C++17 wrappers of poses on the GPU and of pools: nook_gl_poses.h. Call the functions on the context thread.
 #ifndef NOOK_GL_POSES_HPP
 #define NOOK_GL_POSES_HPP
 
@@ -28,7 +27,7 @@ inline std::vector<float> read_pose(const Gl& gl, const Scene& scene, nook_insta
   return bones;
 }
 
-// Gives a scene a pool; struct_size is set here.
+// Gives a scene a pool. The function sets desc.struct_size.
 inline void set_pool(const Gl& gl, Scene& scene, nook_gl_pool_desc desc) {
   desc.struct_size = sizeof desc;
   check(nook_gl_scene_set_pool(gl.get(), scene.get(), &desc));

@@ -190,7 +190,7 @@ typedef struct nook_probe_fit_study_desc {
    * new coefficients b'. S and m are the block's sums of B_i B_k and B_i v, and n is the sum of weights
    * before the block. */
   int32_t published_step;
-  /* Only the published step uses it. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
+  /* Used only by the published step. Default NOOK_PROBE_DENOMINATOR_LOCKSTEP. */
   nook_probe_denominator denominator;
   /* 1: the basis functions are ambient dice, and nook_probe_fit_desc.basis and match_sh have no effect.
    * Default 0. */
@@ -201,10 +201,10 @@ static inline nook_result nook_probe_fit_study_desc_init(nook_probe_fit_study_de
 }
 
 /* Starts the running average `fit` from the coefficients of the fit `short_run` instead of 0. `fit` must not
- * have samples yet. The coefficients have the same total weight as the samples of `short_run`. Both fits must
- * have the same basis. Methods other than running averages ignore the call. nook_probe_fit_reset removes the
- * seed. No other thread may use the fits.
- * One at a time. Errors: INVALID_ARGUMENT. */
+ * have samples yet. In the average, these coefficients have the same weight as all samples of `short_run`
+ * together. Both fits must have the same basis. Methods other than running averages ignore the call.
+ * nook_probe_fit_reset removes the seed. No other thread may use the fits. One at a time. Errors:
+ * INVALID_ARGUMENT. */
 NOOK_API nook_result nook_probe_fit_seed(nook_probe_fit fit, nook_probe_fit short_run);
 
 #ifdef __cplusplus

@@ -20,7 +20,7 @@
  *
  * The shaders are GLSL 4.50 for Vulkan, and also for OpenGL 4.5. Compile them with `glslangValidator -V`;
  * SPIRV-Cross can convert the result to HLSL or MSL. In set 0, binding 0 is a uniform buffer with
- * nook_nnao_frame_values.constants. Binding 1, only in the stage "occlusion", is a uniform buffer with
+ * nook_nnao_frame_values.constants. In the stage "occlusion", binding 1 is a uniform buffer with
  * nook_nnao_stages_info.network. The input images start at binding 2. Use a sampler without filtering,
  * because the shaders read texels. The output is at location 0.
  *

@@ -50,7 +50,6 @@ NOOK_API nook_result nook_synthesis_material_uvs(nook_synthesis synthesis, const
 
 /* ---- In shaders ----
  *
- * This section explains how your shaders use a coordinate texture.
  *
  * Call nook_gl_upload_synthesis once. Put its GLSL after the #version line of your fragment shader, together
  * with the material's GLSL. For each draw, call nook_gl_upload_bind for both uploads. Compute the material's

@@ -1,4 +1,4 @@
-/* Radiance transfer draws compressed materials on static shapes. The light is any distant light, and each
+/* Radiance transfer draws compressed materials on static shapes. The light can be any distant light, and each
  * shape shadows itself. `nook bake transfer` bakes the visibility of a shape. At run time, you can use any
  * material on the shape.
  *
@@ -72,8 +72,8 @@ typedef struct nook_transfer_info {
   /* Bytes of the reflected light (bounces) in memory, vertex_count * bounces * 18. */
   uint64_t indirect_bytes;
   /* NOOK_FORM_DEFAULT has a share for each vertex and lobe, and works with any material. NOOK_FORM_PAPER has
-   * matrices from lobes to the light modes of one material, compressed by CTA. It takes less work to update
-   * after a change of the light. */
+   * matrices from lobes to the light modes of one material, compressed by CTA. When the light changes, the
+   * paper's form takes less work to update. */
   nook_form form;
   /* For the paper's form, the number of light modes of the material that it was baked with; otherwise 0. */
   uint32_t light_modes;
@@ -193,11 +193,10 @@ NOOK_API nook_result nook_transfer_light_read_suns(nook_transfer_light light, no
 /* The error of the lobes that represent a light. */
 typedef struct nook_transfer_projection_info {
   uint32_t struct_size;
-  /* The relative error is the root of the integral of the squared difference divided by the integral of the
+  /* The square root of this quotient: the integral of the squared difference, divided by the integral of the
    * squared light. */
   float relative_error;
-  /* This is the integral of the negative part of the lobes' light, divided by the integral of its absolute
-   * value. */
+  /* The integral of the negative part of the lobes' light, divided by the integral of its absolute value. */
   float negative_share;
 } nook_transfer_projection_info;
 

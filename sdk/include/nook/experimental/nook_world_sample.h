@@ -57,10 +57,10 @@ static inline nook_result nook_world_sample_desc_init(nook_world_sample_desc* de
 }
 
 /* Computes the AO in [0, 1] and the open share of the light at each point. Use it for lightmaps, particles
- * and everything else that is not in the depth buffer of a pass. `scene` may be NULL if only desc->capsules
- * cast. The call uses the poses of the last nook_scene_set_pose; you need not call nook_scene_update. `ao`
- * and `light` receive point_count floats each; either may be NULL. An occluder with a receiver darkens only
- * this receiver.
+ * and everything else that is not in the depth buffer of a pass. `scene` may be NULL if desc->capsules are
+ * the only casters. The call uses the poses of the last nook_scene_set_pose; you need not call
+ * nook_scene_update. `ao` and `light` receive point_count floats each; either may be NULL. An occluder with a
+ * receiver darkens only this receiver.
  *
  * A body is skipped for a block of points if it darkens each of them by less than the scene's cutoff_error.
  * The bound of the darkening is (sum over the body's capsules of r (r + 2 l / pi)) / d^2. Here r is the
