@@ -11,8 +11,8 @@ namespace {
 const GLubyte* GLAD_API_PTR version_for_glad(GLenum) {
   return reinterpret_cast<const GLubyte*>("4.6");
 }
-// glad reads the list of extensions with glGetStringi, which OpenGL ES 2.0 does not have. With this version
-// string, glad uses another way.
+// By default, glad reads the list of extensions with glGetStringi, which OpenGL ES 2.0 does not have. If the
+// version is 2.1, glad reads the list with glGetString.
 const GLubyte* GLAD_API_PTR old_version_for_glad(GLenum) {
   return reinterpret_cast<const GLubyte*>("2.1");
 }
@@ -35,9 +35,9 @@ void* Context::loader(void* user, const char* name) {
 
 void Context::load_functions() {
   gl_ = std::make_unique<GladGLContext>();
-  // glad only loads the functions of the version in GL_VERSION. But versions of OpenGL ES are numbered
-  // differently. The functions of OpenGL ES have the same names and meanings as on OpenGL, so this code loads
-  // every function that the driver has.
+  // glad only loads the functions of the OpenGL version in GL_VERSION, but OpenGL ES has other version
+  // numbers. The functions of OpenGL ES have the same names and meanings as in OpenGL. So this code makes
+  // glad load every function that the driver has.
   const GLADuserptrloadfunc load = [](void* user, const char* name) {
     if (std::strcmp(name, "glGetString") == 0 && static_cast<Context*>(user)->is_es()) {
       const auto get_string = reinterpret_cast<PFNGLGETSTRINGPROC>(loader(user, name));

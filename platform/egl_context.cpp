@@ -94,7 +94,7 @@ std::unique_ptr<Context> create_egl_context(const ContextRequest& request) {
     if (context == EGL_NO_CONTEXT) context = create(display, request, false);
     if (context != EGL_NO_CONTEXT) return std::make_unique<EglContext>(request, display, context);
   }
-  throw std::runtime_error(std::string("create_context: no EGL display gives an OpenGL ") +
+  throw std::runtime_error(std::string("create_context: no EGL display can create an OpenGL ") +
                            (request.es ? "ES " : "") + std::to_string(request.major) + "." +
                            std::to_string(request.minor) + (request.es ? "" : " core") +
                            " context; install libegl1 and libgl1-mesa-dri");

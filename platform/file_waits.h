@@ -7,7 +7,7 @@
 
 namespace platform {
 
-// Callbacks with which code that reads or writes files notifies the program. Each function may be empty.
+// Callbacks for the program while files are read or written. Each function may be empty.
 struct FileEvents {
   std::function<bool()> stopped;                     // return true to end a wait; the wait then throws
                                                      // Stopped

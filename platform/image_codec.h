@@ -29,8 +29,8 @@ class ImageSource {
   virtual ~ImageSource() = default;
   virtual const ImageHead& head() const = 0;
   virtual const char* format_name() const = 0;
-  // Reads the first `channels` channels of the rows from `top` to before `bottom`. An image with tiles must
-  // be read as a whole.
+  // Reads the first `channels` channels of the rows `top` to `bottom` - 1. An image with tiles must be read
+  // as a whole.
   virtual bool read_rows(int top, int bottom, int channels, float* values) = 0;
   virtual bool read_rows(int top, int bottom, int channels, std::uint8_t* values) = 0;
   // Each side of the region must be at the border of a tile or of the image.

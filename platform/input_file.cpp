@@ -127,16 +127,16 @@ InputCopy::InputCopy(const fs::path& stream, std::uint64_t max_bytes, const File
   const fs::path temporary = fs::temp_directory_path(missing);
   if (missing) fail(stream, "needs a folder for temporary files (TMPDIR); set it to one that exists");
   std::string name = (temporary / "nook-input-XXXXXX").string();
-  if (!mkdtemp(name.data())) fail(name, std::string("cannot be made (") + std::strerror(errno) + ")");
+  if (!mkdtemp(name.data())) fail(name, std::string("cannot be created (") + std::strerror(errno) + ")");
   folder_ = name;
   path_ = folder_ / stream.filename();
   try {
     std::ofstream copy(path_, std::ios::binary);
     read_stream(file, stream, max_bytes, events, [&](std::span<const std::byte> came) {
       copy.write(reinterpret_cast<const char*>(came.data()), std::streamsize(came.size()));
-      if (!copy) fail(path_, "cannot be written; it holds what comes from " + stream.string());
+      if (!copy) fail(path_, "cannot be written; it is a copy of " + stream.string());
     });
-    if (!copy.flush()) fail(path_, "cannot be written; it holds what comes from " + stream.string());
+    if (!copy.flush()) fail(path_, "cannot be written; it is a copy of " + stream.string());
   } catch (...) {
     std::error_code ignored;
     fs::remove_all(folder_, ignored);

@@ -11,9 +11,9 @@
 namespace platform {
 
 // Reads a whole file, or a pipe, a terminal or a socket (/dev/stdin) up to its end. Throws std::runtime_error
-// with the name of the file if the file cannot be read, has more than max_bytes, or changes its size
-// meanwhile. The size is checked before memory is allocated, except for streams, whose size is not known
-// before. Throws Stopped if the user ends the wait.
+// with the name of the file if the file cannot be read, has more than max_bytes, or changes its size during
+// the call. The size is checked before memory is allocated, except for streams, whose size is not known in
+// advance. Throws Stopped if the user ends the wait.
 std::vector<std::byte> read_input(const std::filesystem::path& path, std::uint64_t max_bytes,
                                   const FileEvents& events);
 

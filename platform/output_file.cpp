@@ -35,8 +35,8 @@ bool same_file(const struct stat& a, const struct stat& b) {
   return a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-// Root may write to every file. But if no write permission is set at all, this is intended, so the file is
-// protected from root, too.
+// Root may write to every file. But if a file has no write permission at all, its owner wants to protect it,
+// so root does not overwrite it here either.
 void require_writable(const fs::path& named, const fs::path& target, const struct stat& there) {
   if ((there.st_mode & 0222) == 0)
     fail(named, "it is write-protected", "make it writable (chmod u+w), or choose another place");
@@ -165,7 +165,8 @@ void OutputFile::write_stream(std::span<const std::byte> bytes) {
   }
 }
 
-// Writes the first bytes last, over the mark. Until then, the file is recognised as a part.
+// The mark is at the start of the file. So this function first writes the rest of the bytes, and then
+// overwrites the mark with the first bytes. Until then, other processes recognise the file as a part.
 void OutputFile::write_part(std::span<const std::byte> bytes) {
   const auto write_at = [&](std::span<const std::byte> left, std::size_t at) {
     while (!left.empty()) {

@@ -69,8 +69,8 @@ bool has_mark(int descriptor, long process) {
          found == mark_of(process);
 }
 
-// A running process also holds a lock on its part. The kernel releases the lock when the process ends in any
-// way.
+// A running process also holds a lock on its part. When the process ends, even by a crash, the kernel
+// releases the lock.
 void remove_if_abandoned(const fs::path& part, long process) {
   // Opens for writing, because NFS can lock only such files.
   const int descriptor = open(part.c_str(), O_RDWR | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK);

@@ -7,7 +7,7 @@
 namespace platform {
 
 // Replaces control characters (C0, DEL and C1), characters that change the writing direction, and invalid
-// UTF-8 by visible escapes such as \x1b. So the name of a file cannot change the colours, the cursor or the
+// UTF-8 with visible escapes such as \x1b. So the name of a file cannot change the colours, the cursor or the
 // title of a terminal.
 std::string printable(std::string_view text);
 

@@ -10,10 +10,11 @@
 #include <fcntl.h>
 #endif
 
-/* Call it first in main(). A file that is opened gets the lowest free descriptor. If the error stream is
- * closed, this is 2, and messages would be written into the first file that you open. So this function opens
- * closed descriptors on /dev/null, in the wrong direction: printing still fails with EBADF, and a lost result
- * is noticed. On Windows, nothing is needed, because the C library never gives 0, 1 or 2 to a file. */
+/* Call it first in main(). Each file that you open gets the lowest free descriptor. If the error stream is
+ * closed, a file can get its descriptor 2, and messages would be written into this file. So this function
+ * opens /dev/null for closed streams, but for the wrong direction, such as reading for an output stream.
+ * Printing then still fails with EBADF, so a lost result is noticed. Windows does not need this, because its
+ * C library never gives 0, 1 or 2 to a file. */
 static inline void open_closed_streams(void) {
 #ifndef _WIN32
   for (int stream = 0; stream < 3; ++stream) {

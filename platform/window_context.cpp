@@ -14,7 +14,7 @@ std::runtime_error glfw_failure(const char* what) {
   glfwGetError(&text);
   return std::runtime_error(std::string("create_context: ") + what + " (" +
                             (text ? text : "no reason given") +
-                            "); run under a display or xvfb-run, or ask for egl");
+                            "); start a display or use xvfb-run, or choose the kind egl");
 }
 
 class WindowContext final : public Context {
@@ -57,7 +57,7 @@ std::unique_ptr<Context> create_window_context(const ContextRequest& request) {
   GLFWwindow* window =
       glfwCreateWindow(request.width, request.height, request.title.c_str(), nullptr, nullptr);
   if (!window) {
-    const std::runtime_error failure = glfw_failure("the window could not be made");
+    const std::runtime_error failure = glfw_failure("the window could not be created");
     glfwTerminate();
     throw failure;
   }

@@ -101,7 +101,7 @@ Mat3x4 checked_bone(const LoadedClips& clips, const FrameMix& mix, const Mat3x4&
   return matrix;
 }
 
-// Logs notes about the place. The bones of a clip have a uniform scale and no shear, so there are no other
+// Logs notes about place_3x4. The bones of a clip have a uniform scale and no shear, so there are no other
 // notes.
 void log_place(nook_clips_s& clips, const char* function, const Mat3x4& place) {
   const CharacterModel& model = clips.model->model;

@@ -44,8 +44,8 @@ nook_material_info info_of(const Material& material, const MaterialTables& table
   info.light_multiply_adds = light.multiply_adds;
   info.occlusion_fetches = occlusion.fetches;
   info.occlusion_multiply_adds = occlusion.multiply_adds;
-  // In a neural material, each further place fetches features. Otherwise it fetches the relief and the
-  // spatial modes.
+  // In a neural material, each additional place of the footprint fetches features. In other materials, it
+  // fetches the relief and the spatial modes.
   info.further_decode_fetches = is_neural ? decode.fetches : relief.fetches + further_fetches(tables.btf);
   info.further_occlusion_fetches = further_fetches(tables.votf);
   info.compressed_bytes = compressed_bytes(material);

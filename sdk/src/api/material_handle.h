@@ -7,7 +7,7 @@
 #include "sdk/src/material/tables.h"
 
 struct nook_material_s : nook::RefCounted {
-  // Makes the tables from `loaded`, whose compressed data are not kept.
+  // Makes the tables from `loaded`. Does not keep the compressed data of `loaded`.
   nook_material_s(nook_context_s* made_by, const nook::material::Material& loaded,
                   const nook::material::ModeForm& form);
 

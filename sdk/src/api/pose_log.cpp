@@ -134,8 +134,8 @@ void log_same_place(const Context& context, const Scene& scene, Instance& instan
       instance.id, other->id);
 }
 
-// Hosts may update while they load, before they pose a body. Until then, the body is at the origin, where
-// neither its ground nor another body is meant.
+// A host may call updates while it loads, before it poses a body. Until then, the body is at the origin, so
+// warnings about its ground or about another body at the same place would be wrong.
 bool is_loading(const Scene& scene, const Instance& instance) {
   constexpr std::uint64_t updates = 60;
   return !was_posed(instance) && scene.frame < instance.added_frame + updates;

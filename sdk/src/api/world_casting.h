@@ -1,4 +1,5 @@
-// Collects the casters for one call: the bodies and occluders of a scene, and the host's props.
+// Collects the casters for one call: the bodies and occluders of a scene, and the capsules that the host
+// passes, which are called props.
 #pragma once
 
 #include <nook/nook_world.h>
@@ -34,9 +35,8 @@ inline float half_angle_radians(float degrees) {
 
 class Casting {
  public:
-  // Poses the casters of the scene's instances. Instances whose poses are on the GPU do not cast, nor do
-  // instances in the far form of a pool. `scene` may be NULL. `receiver` is an instance that must not cast,
-  // or 0.
+  // Poses the casters of the scene's instances. Instances with poses on the GPU and far instances of a pool
+  // do not cast. `scene` may be NULL. `receiver` is an instance that must not cast, or 0.
   Casting(Scene* scene, nook_instance_id receiver, const nook_capsule* props, std::uint32_t prop_count);
 
   // Returns the number of groups. The groups are the bodies by slot, then the occluders by slot, then the
@@ -49,7 +49,7 @@ class Casting {
   static world::CasterGroup group(const void* user, std::uint32_t index, PosedCaster& room);
 
  private:
-  // A far instance of a pool has parts if the host posed it on the CPU.
+  // Checks is_far too, because a far instance of a pool also has parts if the host posed it on the CPU.
   static bool can_cast(const Instance& instance) {
     return instance.parts && !instance.plan.is_far && !instance.input.is_posed_on_gpu;
   }

@@ -1,4 +1,4 @@
-// An object of its own allocation, or nothing.
+// A Box owns one object, which has its own allocation, or is empty.
 #pragma once
 
 #include <utility>

@@ -13,7 +13,7 @@
 
 namespace nook {
 
-// The text of a number of any type, for a message.
+// Converts a number of any type to text, for a message.
 class NumberText {
  public:
   template <std::integral Number>
@@ -68,8 +68,8 @@ void check_index(const char* name, std::size_t index, std::size_t count);
 void check_at_most(const char* name, std::uint32_t value, std::uint32_t most);
 
 // Returns the distance in bytes between consecutive elements of the caller's array: `stride`, or
-// element_bytes if `stride` is 0. Throws INVALID_ARGUMENT if elements overlap, or if if `count` elements at
-// this distance do not fit into an address space. `name` is the name of the stride, for the message.
+// element_bytes if `stride` is 0. Throws INVALID_ARGUMENT if elements overlap, or if `count` elements at this
+// distance do not fit into an address space. `name` is the name of the stride, for the message.
 std::size_t checked_stride(const char* name, std::size_t stride, std::size_t count,
                            std::size_t element_bytes);
 

@@ -1,7 +1,7 @@
 // The .nook container, little-endian:
 //   0  "NOOK"            4  u32 0x01020304, the byte-order mark
 //   8  u32 format version of the kind           12  four letters, the kind
-//  16  u64 size of the whole file               24  u64 XXH64 of the whole file but these eight bytes
+//  16  u64 size of the whole file               24  u64 XXH64 of the whole file except these 8 bytes
 //  32  u32 number of sections                   36  u32 0
 //  40  the section table: four letters, u32 0, u64 offset from the file's start, u64 size; then the sections.
 #pragma once
@@ -36,7 +36,7 @@ struct ContainerSection {
 
 std::vector<std::byte> write_container(const ContainerKind& kind, std::span<const ContainerSection> sections);
 
-// Views the bytes of a file without allocating.
+// A view of the bytes of a file. It does not allocate.
 class Container {
  public:
   // Checks everything except the contents of the sections. If something is wrong, throws Failure. Each kind

@@ -22,7 +22,8 @@ class Context : public RefCounted {
 
   Memory* memory() noexcept { return &memory_; }
   const Parallel& parallel() const noexcept { return parallel_; }
-  // Returns the instruction set that the host chose, which is available on this processor, or NOOK_ISA_AUTO.
+  // Returns NOOK_ISA_AUTO, or the instruction set that the host chose. This processor supports the chosen
+  // set.
   nook_isa isa() const noexcept { return isa_; }
   // Returns the length of one metre in the host's unit.
   float units_per_metre() const noexcept { return units_per_metre_; }

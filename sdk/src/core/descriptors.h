@@ -18,9 +18,9 @@ namespace nook {
 // equal, and the minor version must not be newer than the library's.
 void check_version(std::uint32_t version);
 
-// For a descriptor type: its NOOK_DESC_ value, the name of its init function, and its defaults. Each library
-// specialises these three for its descriptors. The specialisations are generated from a list, which is
-// descriptor_list.h in the folder of the library's C functions.
+// The properties of a descriptor type: its NOOK_DESC_ value, the name of its init function, and its defaults.
+// Each library specialises these three for its descriptors. The specialisations are generated from the list
+// in descriptor_list.h, which is in the folder of the library's C functions.
 template <class Desc>
 inline constexpr std::uint32_t descriptor_type = 0;
 template <class Desc>
@@ -97,9 +97,9 @@ void check_extensions(const void* next) {
 }
 
 // Returns a copy of the caller's struct in this library's version. Fields that are missing in the caller's
-// struct get their defaults. Fields that this library does not know, from a newer header, must be 0. `next`
-// of the struct may point to extensions of the types Ext; get them with find_extension. Use this function
-// also to read each extension, with the same list of types as Ext.
+// struct get their defaults. Fields that this library does not know, from a newer header, must be 0. The
+// struct's `next` may point to extensions of the types Ext; get them with find_extension. Read each extension
+// with this function too, and pass the same list of types as Ext.
 template <class Desc, class... Ext>
 Desc read_descriptor(const Desc* desc) {
   need(desc, "desc");

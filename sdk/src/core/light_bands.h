@@ -1,6 +1,6 @@
-// Bands 0 to 2 of light that is a sum of lobes, and of densities over directions. All densities are summed
-// before the sum is combined with the light. So the cost of a density does not depend on the number of lobes.
-// The mean of the light under a density around d is
+// Computes the mean of light under densities over directions, from bands 0 to 2. The light is a sum of lobes.
+// All densities are summed before the sum is combined with the light. So the cost of a density does not
+// depend on the number of lobes. The mean of the light under a density around d is
 //   scalar + A1 dot(vector, d) + A2 dot(d, tensor d),
 // where A1 and A2 are bands 1 and 2 of the density: the means of c and of (3 c^2 - 1) / 2, where c is the
 // cosine to d.
@@ -34,8 +34,8 @@ struct LightBands {
   Vec3 vector[3];  // x, y, z
   Vec3 tensor[6];  // xx, yy, zz, and twice xy, yz, zx; its trace is 0
   // Lower bound for the radiance of a hemisphere, > 0: a small fraction of the mean radiance of all
-  // directions. On the dark side, the sum of fitted lobes can be near 0 or below. Without the bound, ratios
-  // to it would be extreme.
+  // directions. On the dark side, the sum of fitted lobes can be near 0 or below. Without the bound, a ratio
+  // to this sum would be extreme.
   Vec3 darkest;
 };
 
@@ -81,8 +81,8 @@ struct GatheredBands {
     const F o(0.0f);
     return {o, o, o, o, o, o, o, o, o, o};
   }
-  // Adds the density exp(dot(b, s)). Its bands are A1 = 1 - 1 / |b| and A2 = 1 - 3 A1 / |b|, without a term
-  // e^(-2 |b|). This term is below 0.015 here, because |b| >= directional_cosine. The only exception is a
+  // Adds the density exp(dot(b, s)). Its bands are A1 = 1 - 1 / |b| and A2 = 1 - 3 A1 / |b|. A term e^(-2
+  // |b|) is left out. It is below 0.015 here, because |b| >= directional_cosine. The only exception is a
   // normal that bone blending has made zero.
   void add(const Direction<F>& b, F weight) {
     const F t = rsqrt(max(fma(b.x, b.x, fma(b.y, b.y, b.z * b.z)), F(1.0f)));

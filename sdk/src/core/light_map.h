@@ -45,8 +45,8 @@ double cube_cell_angle(std::uint32_t column, std::uint32_t row, std::uint32_t si
 // Returns the index of the cell that contains a direction.
 std::size_t cube_cell_at(Vec3 direction, std::uint32_t side);
 
-// A sun is a light source in a map that is very small and bright. Hosts draw suns as separate lights with
-// shadow maps. The remaining light is represented by lobes or probes.
+// A sun is a very small and bright light source in a map. Hosts draw suns as separate lights with shadow
+// maps. The remaining light is represented by lobes or probes.
 
 // A texel belongs to a sun if its luminance is more than this many times the mean luminance of the map
 // without its suns.

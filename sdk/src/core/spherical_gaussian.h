@@ -48,8 +48,8 @@ T gaussian_square_integral(T sharpness) {
   return gaussian_integral(2 * sharpness);
 }
 
-// The product of lobes of sharpness a and b, with `apart` = 1 - cosine between their axes, is a lobe of
-// sharpness l = |a p + b q|, scaled by e^(l - a - b).
+// The product of two lobes with the axes p and q and the sharpness a and b. It is a lobe of sharpness l = |a
+// p + b q|, scaled by e^(l - a - b). `apart` is 1 - dot(p, q).
 template <std::floating_point T>
 struct ProductShape {
   T sharpness;
@@ -63,8 +63,8 @@ ProductShape<T> gaussian_product_shape(T a, T b, T apart) {
   return {sharpness, std::exp(drop)};
 }
 
-// Returns the integral of the product at amplitudes 1: 2 pi e^(l - a - b) (1 - e^(-2 l)) / l. This form never
-// overflows, unlike 4 pi e^(-a - b) sinh(l) / l.
+// Returns the integral of the product of two lobes of amplitude 1: 2 pi e^(l - a - b) (1 - e^(-2 l)) / l.
+// This form never overflows, unlike 4 pi e^(-a - b) sinh(l) / l.
 template <std::floating_point T>
 T gaussian_product_integral(T a, T b, T apart) {
   const ProductShape<T> shape = gaussian_product_shape(a, b, apart);

@@ -1,5 +1,5 @@
-// Anisotropic filtering. Finds the places in the material's tile at which a pixel reads it. They lie along
-// the longer axis of the pixel's footprint. shaders/material/footprint.glsl has the same functions.
+// Anisotropic filtering. Finds the places of the tile at which a pixel reads the material. The places lie
+// along the longer axis of the pixel's footprint. shaders/material/footprint.glsl has the same functions.
 #pragma once
 
 #include <array>

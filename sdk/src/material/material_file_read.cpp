@@ -134,7 +134,7 @@ void read_neural(ByteReader in, Neural& neural) {
 // Reads the light basis and the BTF.
 void read_btf(const Container& file, const Head& head, Material& material) {
   const float step = read_tensor(file.section("BTF_"), material, head.lights, "BTF", material.btf);
-  // The error is increased by 1 %. If the material is written again, the writer then chooses the same step.
+  // Increases the error by 1 %, so that the writer chooses the same step if the material is written again.
   if (const float error = error_of_step(material.btf.cores, step); error > 0 && error < 0.9f)
     material.core_rounding = 1.01f * error;
   ByteReader light = file.section("LGHT");

@@ -1,7 +1,7 @@
-// A material as a small neural network. Its input are features that are stored for each texel. It replaces
-// the clustered BTF. The method follows A. Kuznetsov, K. Mullia, Z. Xu, M. Hasan, R. Ramamoorthi: NeuMIP,
-// 2021 (the neural offset) and C. Weinreich, L. de Oliveira, A. Houdard, G. Nader: Real-Time Neural Materials
-// using Block-Compressed Features, 2023.
+// A material as a small neural network. The network reads features that are stored for each texel, and
+// replaces the clustered BTF. The method follows A. Kuznetsov, K. Mullia, Z. Xu, M. Hasan, R. Ramamoorthi:
+// NeuMIP, 2021 (the neural offset) and C. Weinreich, L. de Oliveira, A. Houdard, G. Nader: Real-Time Neural
+// Materials using Block-Compressed Features, 2023.
 //
 // All layers are matrices, features are filtered linearly at a point of the tile, and r(x) = max(x, x / 100):
 //   height   = offset_out r(offset_in (offset features at uv, view, 1)) + offset_level

@@ -444,8 +444,8 @@ void make_votf(const Material& material, std::uint32_t map_side, const ModeForm&
   const ViewCells cells = view_cells(votf, material.views, map_side, memory);
   tables.votf_hash = hash_of_votf(material);
   if (!has_scales(material, form)) {
-    // The coefficients are multiplied by the inverse of this power of two, which costs them precision. So it
-    // is used only if a half float would overflow.
+    // The coefficients are multiplied by the inverse of this power of two, which costs them precision. So the
+    // power of two differs from 1 only if a half float would overflow.
     const int exponent = std::min(spatial_exponent(votf, memory), 0);
     make_spatial(votf, std::ldexp(1.0f, exponent), parallel, tables.votf, memory);
     pack_cells(

@@ -193,8 +193,7 @@ NOOK_API nook_result nook_transfer_light_read_suns(nook_transfer_light light, no
 /* The error of the lobes that represent a light. */
 typedef struct nook_transfer_projection_info {
   uint32_t struct_size;
-  /* The square root of this quotient: the integral of the squared difference, divided by the integral of the
-   * squared light. */
+  /* sqrt(integral of the squared difference / integral of the squared light). */
   float relative_error;
   /* The integral of the negative part of the lobes' light, divided by the integral of its absolute value. */
   float negative_share;

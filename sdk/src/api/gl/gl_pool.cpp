@@ -51,7 +51,7 @@ nook_result nook_gl_scene_read_pool(nook_gl gl, nook_scene scene, const nook_ins
       need(instances, "instances");
       need(views, "views");
     }
-    // Looks up all instances before it writes anything.
+    // Looks up all instances before it writes anything. So if an id is invalid, nothing is changed.
     for (uint32_t i = 0; i < count; ++i) gl->characters->pooled_view(scene->scene, instances[i]);
     if (info) {
       const gl::PoolCount known = gl->characters->pool_count(scene->scene);

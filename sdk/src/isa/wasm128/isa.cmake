@@ -1,5 +1,5 @@
-# WebAssembly with fixed-width SIMD. A module with SIMD instructions is refused as a whole by runtimes without SIMD.
-# Fixed-width SIMD is available since Chromium 91, Firefox 89, Safari 16.4 and node 16.4.
+# WebAssembly with fixed-width SIMD. Runtimes without SIMD refuse every module that contains SIMD instructions. Fixed-width SIMD
+# is available since Chromium 91, Firefox 89, Safari 16.4 and node 16.4.
 nook_target_is(isa_built "defined(__wasm__)")
 if(isa_built)
   option(NOOK_WASM128 "Build the SIMD128 kernels of WebAssembly" ON)
