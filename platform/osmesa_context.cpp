@@ -49,8 +49,9 @@ std::unique_ptr<Context> create_osmesa_context(const ContextRequest& request) {
                             0};
   const OSMesaContext context = OSMesaCreateContextAttribs(attributes, nullptr);
   if (!context)
-    throw std::runtime_error("create_context: OSMesa cannot create an OpenGL " + std::to_string(request.major) + "." +
-                             std::to_string(request.minor) + " core context; request a lower version");
+    throw std::runtime_error("create_context: OSMesa cannot create an OpenGL " +
+                             std::to_string(request.major) + "." + std::to_string(request.minor) +
+                             " core context; request a lower version");
   return std::make_unique<OsmesaContext>(request, context);
 }
 
