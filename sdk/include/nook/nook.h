@@ -4,7 +4,7 @@
  * occluded. The comment of each function states one of three thread contracts:
  *   any thread       Call it at any time from any thread.
  *   context thread   Call it only on the thread where the OpenGL context of the object is current.
- *   one at a time    Call it from any thread, but never twice at once on the same object.
+ *   one at a time    Call it from any thread, but not during another call on the same object.
  * A failed call does not change its outputs or its objects, unless the function's comment says otherwise. */
 #ifndef NOOK_NOOK_H
 #define NOOK_NOOK_H

@@ -19,7 +19,7 @@ NOOK_API nook_result nook_bake_desc_init(uint32_t type, void* desc, size_t size,
 /* Like nook_last_message(), but for failures in this library. Any thread. */
 NOOK_API const char* nook_bake_last_message(void);
 
-/* ---- Jobs: each bake runs on its own threads; any number of jobs may run at once ----
+/* ---- Jobs: each bake runs on its own threads; any number of jobs may run in parallel ----
  *
  * Every bake descriptor has four fields for its job. `seed` is 1 by default; the same seed gives the same
  * bytes with any number of threads. `threads` is 0 by default, which means all cores; the maximum is 1024.
@@ -29,7 +29,7 @@ NOOK_API const char* nook_bake_last_message(void);
 enum {
   NOOK_BAKE_WAITING = 0,
   NOOK_BAKE_RUNNING = 1,
-  /* The job finished, failed or was cancelled; nook_bake_job_wait returns its result at once. */
+  /* The job finished, failed or was cancelled; nook_bake_job_wait returns its result without waiting. */
   NOOK_BAKE_DONE = 2
 };
 typedef int32_t nook_bake_state;
@@ -48,9 +48,9 @@ typedef struct nook_bake_progress {
  * the job in this function. */
 typedef int32_t (*nook_bake_progress_fn)(void* user, const nook_bake_progress* progress);
 
-/* Starts a bake and returns at once. The descriptor's `type` selects the kind of bake; if you know the kind,
- * call a typed function such as nook_bake_start_character instead. The call checks the descriptor and copies
- * its data, so you may free its arrays and destroy its character afterwards. On failure *out is NULL.
+/* Starts a bake and returns immediately. The descriptor's `type` selects the kind of bake; if you know the
+ * kind, call a typed function such as nook_bake_start_character instead. The call checks the descriptor and
+ * copies its data, so you may free its arrays and destroy its character afterwards. On failure *out is NULL.
  * Any thread. Errors: INVALID_ARGUMENT (the message names the first fault), BAD_FILE (`model` is not a model,
  * or belongs to another character), FILE_VERSION, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_bake_start(const void* desc, nook_bake_job* out);
@@ -58,7 +58,7 @@ NOOK_API nook_result nook_bake_start(const void* desc, nook_bake_job* out);
 /* Gives the state of a job and its progress. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_job_poll(nook_bake_job job, nook_bake_progress* progress);
 
-/* Asks the job to stop, and returns at once. Any thread. Errors: INVALID_ARGUMENT. */
+/* Asks the job to stop, and returns immediately. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_bake_job_cancel(nook_bake_job job);
 
 /* Waits until the job ends and returns its result. You may call it any number of times.
@@ -296,7 +296,7 @@ static inline nook_result nook_bake_character_desc_init(nook_bake_character_desc
   return nook_bake_desc_init(NOOK_DESC_BAKE_CHARACTER, desc, sizeof *desc, NOOK_VERSION);
 }
 
-/* Starts to bake a character's model for nook_model_load; otherwise like nook_bake_start. */
+/* Starts to bake a character's model for nook_model_load. See nook_bake_start. */
 static inline nook_result nook_bake_start_character(const nook_bake_character_desc* desc,
                                                     nook_bake_job* out) {
   return nook_bake_start(desc, out);
@@ -332,7 +332,7 @@ static inline nook_result nook_bake_bent_desc_init(nook_bake_bent_desc* desc) {
 }
 
 /* Starts to bake bent normals. The result is a model file for nook_model_load: the given model with bent
- * normals. Otherwise like nook_bake_start. */
+ * normals. See nook_bake_start. */
 static inline nook_result nook_bake_start_bent(const nook_bake_bent_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
@@ -374,7 +374,7 @@ static inline nook_result nook_bake_clips_desc_init(nook_bake_clips_desc* desc) 
 }
 
 /* Starts to bake the clips of a character for nook_clips_load. If a clip name is unknown, the message lists
- * the clips. Otherwise like nook_bake_start. */
+ * the clips. See nook_bake_start. */
 static inline nook_result nook_bake_start_clips(const nook_bake_clips_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }
@@ -476,8 +476,8 @@ static inline nook_result nook_bake_material_desc_init(nook_bake_material_desc* 
 }
 
 /* Starts to bake a material for nook_material_load. The call fails if the data has faults, such as ranks that
- * exceed the sizes. Otherwise like nook_bake_start. The report contains the signal-to-error ratio in dB, and
- * the share of texels whose visibility is wrong. */
+ * exceed the sizes. The report contains the signal-to-error ratio in dB, and the share of texels whose
+ * visibility is wrong. See nook_bake_start. */
 static inline nook_result nook_bake_start_material(const nook_bake_material_desc* desc, nook_bake_job* out) {
   return nook_bake_start(desc, out);
 }

@@ -212,7 +212,7 @@ NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id ins
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
 /* Evaluates the shadows of all instances at their key points on the CPU. The call uses the context's
- * parallel_for if you set one. It does not lock. It allocates only when compute shaders updated the scene
+ * parallel_for if you set one. It takes no locks. It allocates only if compute shaders updated the scene
  * before. One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_update(nook_scene scene);
 

@@ -1,6 +1,6 @@
 /* Screen-space ambient occlusion by a small neural network. The input is a depth buffer, and normals if you
- * have them; the output is AO, in a texture or multiplied into an image of yours. The only required setting
- * is the radius. The method is D. Holden, J. Saito and T. Komura, Neural Network Ambient Occlusion, 2016. The
+ * have them; the output is AO, in a texture or multiplied into your own image. The only required setting is
+ * the radius. The method is D. Holden, J. Saito and T. Komura, Neural Network Ambient Occlusion, 2016. The
  * embedded network reads pixels along directions on the screen (the horizon form). You can also load a
  * network of the paper's form, which reads a grid of 31 x 31 pixels. Both are trained on the cosine-weighted
  * visibility of the hemisphere around the normal, up to the radius. Each frame, after you have drawn depth

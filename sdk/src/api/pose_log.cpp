@@ -148,8 +148,8 @@ void log_body(const Context& context, const Scene& scene, Instance& instance) {
   log_size(context, instance);
 }
 
-// Sets a bit, and returns true if it was 0 before. Several threads may read the AO of one instance at a time.
-// GCC and Clang have no std::atomic_ref with the standard libraries of Emscripten and LLVM 16.
+// Sets a bit, and returns true if it was 0 before. It is atomic, because several threads may read the AO of
+// one instance at the same time. The standard libraries of Emscripten and LLVM 16 have no std::atomic_ref.
 bool set_once(std::uint32_t& bits, std::uint32_t bit) noexcept {
 #if defined(__GNUC__)
   return (__atomic_fetch_or(&bits, bit, __ATOMIC_RELAXED) & bit) == 0;

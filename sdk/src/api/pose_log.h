@@ -21,8 +21,8 @@ void log_without_world_casters(const Context& context, Scene& scene);
 // few instances, so its cost does not depend on the size of the crowd.
 void log_bodies(const Context& context, Scene& scene);
 
-// Logs once for an instance that its AO is read before the first update on the CPU. Any thread that may read
-// the instance may call it.
+// Logs once per instance if its AO is read before the first update on the CPU. You may call it on every
+// thread that may read the instance.
 void log_missing_update(const Context& context, Instance& instance);
 
 }  // namespace nook::api

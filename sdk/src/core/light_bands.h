@@ -1,11 +1,12 @@
-// Computes the mean of light under densities over directions, from bands 0 to 2. The light is a sum of lobes.
-// All densities are summed before the sum is combined with the light. So the cost of a density does not
-// depend on the number of lobes. The mean of the light under a density around d is
+// Computes means of light over directions, from bands 0 to 2. The light is a sum of lobes. A density gives
+// the weight of each direction. All densities are summed before the sum is combined with the light. So the
+// cost of a density does not depend on the number of lobes. The mean of the light, weighted by a density
+// around d, is
 //   scalar + A1 dot(vector, d) + A2 dot(d, tensor d),
 // where A1 and A2 are bands 1 and 2 of the density: the means of c and of (3 c^2 - 1) / 2, where c is the
 // cosine to d.
 //
-// Functions with a template parameter F work for every number type, like the kernels.
+// Functions with a template parameter F work for every number type that kernels use.
 #pragma once
 
 #include <algorithm>
@@ -39,7 +40,7 @@ struct LightBands {
   Vec3 darkest;
 };
 
-// The bands of a lobe at amplitude 1.
+// The bands of a lobe of amplitude 1.
 struct LobeBands {
   float scalar = 0, vector = 0, tensor = 0;
 };

@@ -28,12 +28,12 @@ constexpr float one_minus_cosine(Vec3 a, Vec3 b) {
   return 0.5f * dot(d, d);
 }
 
-// Returns G(s) at amplitude 1 for a unit s.
+// Returns G(s) for amplitude 1 and a unit vector s.
 inline float gaussian_value(Vec3 axis, float sharpness, Vec3 s) {
   return std::exp(-sharpness * one_minus_cosine(axis, s));
 }
 
-// Returns the integral of G over the sphere at amplitude 1: 2 pi (1 - e^(-2 sharpness)) / sharpness.
+// Returns the integral of G over the sphere for amplitude 1: 2 pi (1 - e^(-2 sharpness)) / sharpness.
 template <std::floating_point T>
 T gaussian_integral(T sharpness) {
   constexpr T pi = std::numbers::pi_v<T>;
@@ -41,7 +41,7 @@ T gaussian_integral(T sharpness) {
   return -2 * pi * std::expm1(-2 * sharpness) / sharpness;
 }
 
-// Returns the integral of G^2 over the sphere at amplitude 1. G^2 is a lobe of twice the sharpness: pi (1 -
+// Returns the integral of G^2 over the sphere for amplitude 1. G^2 is a lobe of twice the sharpness: pi (1 -
 // e^(-4 sharpness)) / sharpness.
 template <std::floating_point T>
 T gaussian_square_integral(T sharpness) {

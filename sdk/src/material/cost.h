@@ -17,9 +17,9 @@ inline std::uint32_t further_fetches(const TensorTables& t) {
   return t.terms * t.view_vec4_count * (t.light_modes + t.packed_modes);
 }
 
-// Returns the cost of decoding a BTF's light modes or a VOTF's value. Each term needs its coefficients, three
-// times if cells blend. Each coefficient needs the spatial modes of each light mode. If there are several
-// clusters, the cluster indices of the terms must be fetched, too. If `t` is empty, the cost is 0.
+// Returns the cost of decoding a BTF's light modes or a VOTF's value. Each term fetches its coefficients,
+// three times if cells blend. Each coefficient needs the spatial modes of each light mode. If there are
+// several clusters, the cluster indices of the terms must be fetched, too. If `t` is empty, the cost is 0.
 inline DecodeCost decode_cost(const TensorTables& t) {
   const std::uint32_t spatial = t.terms * t.view_vec4_count * t.light_modes;
   const std::uint32_t clusters = t.has_membership() ? vec4_count(t.memberships()) : 0;

@@ -16,9 +16,9 @@ double jittered(float value, std::uint32_t number) {
   return double(value) + jitter * (double(hash >> 8) / 8388608.0 - 1);
 }
 
-// The triangulation starts with one large triangle around all points, whose corners are this far away. With
-// such distant corners, the border of the mesh is nearly convex. The small gaps that remain at the border are
-// treated as outside.
+// The triangulation starts with one large triangle around all points. The corners of this triangle are this
+// far away. With such distant corners, the border of the mesh is nearly convex. The small gaps that remain at
+// the border are treated as outside.
 constexpr double far_away = 1e3;
 
 template <class Point>

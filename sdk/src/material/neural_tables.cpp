@@ -61,7 +61,7 @@ float lowest_z(std::span<const Vec3> directions) {
   return lowest;
 }
 
-// Raises a direction that is lower than the lowest sampled direction to the height of that direction.
+// If a direction is lower than the lowest sampled direction, raises it to the same height.
 Vec3 raised(Vec3 d, float lowest) {
   if (d.z >= lowest) return d;
   const float scale = std::sqrt(1 - lowest * lowest) / std::max(std::sqrt(d.x * d.x + d.y * d.y), 1e-6f);

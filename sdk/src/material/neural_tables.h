@@ -22,8 +22,7 @@ struct NeuralTables {
   ImageSize size;
   Vector<std::int8_t> features;
   Vector<float> weights;  // empty: the material is a clustered tensor
-  // Lower limits of z. A view or light that is lower than all sampled ones is raised to the lowest sampled
-  // one.
+  // Lower limits of z. A lower view or light is raised to the height of the lowest sampled one.
   float lowest_view_z = 1, lowest_light_z = 1;
 
   bool is_used() const { return !weights.empty(); }

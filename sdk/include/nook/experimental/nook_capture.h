@@ -104,7 +104,7 @@ NOOK_API nook_result nook_gl_capture_read(nook_gl_capture capture, uint32_t inde
  * Context thread. Errors: INVALID_ARGUMENT, GL, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_capture_solve(nook_gl_capture capture, nook_probe* out);
 
-/* Deletes the OpenGL objects and sets *capture to NULL; otherwise like nook_gl_upload_destroy.
+/* Deletes the OpenGL objects and sets *capture to NULL, under the same conditions as nook_gl_upload_destroy.
  * Context thread. */
 NOOK_API void nook_gl_capture_destroy(nook_gl_capture* capture);
 

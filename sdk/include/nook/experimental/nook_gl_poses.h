@@ -10,7 +10,7 @@
  * Barriers and fences. If shaders wrote the transforms, call glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT)
  * before nook_gl_scene_set_poses. Other writes, such as glBufferSubData, transform feedback and unmapping,
  * need no barrier. Only OpenGL commands that nook_gl_scene_set_poses issues read the buffer. So OpenGL
- * commands that you issue after the call may overwrite the range at once. Before you write through a
+ * commands that you issue after the call may overwrite the range immediately. Before you write through a
  * persistent mapping, wait for a fence that you issued after the call. During the call, the buffer may be
  * mapped persistently, but not in another way.
  *

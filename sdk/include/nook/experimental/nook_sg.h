@@ -158,7 +158,7 @@ enum {
    * blurred. match_sh has no effect. */
   NOOK_PROBE_FIT_STUDY_NAIVE = 1,
   /* The running average in its first published form, b_i += (1 / n) B_i (v - R) / mean of B_i. It converges
-   * to the same result as the corrected form, but with about half the step, so much more slowly. Not
+   * to the same result as the corrected form, but its steps are half as large, so it is much slower. Not
    * available for harmonics. match_sh has no effect. */
   NOOK_PROBE_FIT_STUDY_RUNNING_AVERAGE_ORIGINAL = 2,
   /* b = G^-1 m with the exact G. Merging fits is exact. */

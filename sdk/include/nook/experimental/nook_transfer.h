@@ -264,7 +264,7 @@ typedef struct nook_transfer_vectors_desc {
   uint32_t struct_size, type;
   const void* next;
   /* The baked shape. If NULL (default), the vertices have no baked visibility and receive all light above
-   * their horizon. This is enough for a prop under a probe. */
+   * their horizon. This is enough for a small object that a probe lights. */
   nook_transfer transfer;
   /* lobe_count x RGB from nook_transfer_light_project, finite numbers whose magnitude is at most 1e22;
    * required. `lobe_count` must be the same as in the response and the transfer. */
