@@ -16,9 +16,9 @@ void log_pose(const Context& context, const char* subject, const CharacterModel&
               const PoseNotes& notes, std::atomic<std::uint32_t>& reported);
 // For each instance whose pose is on the GPU, logs once that the instance does not darken the world.
 void log_without_world_casters(const Context& context, Scene& scene);
-// Logs once for each instance if its body is mostly below its ground, is far larger than in the rest pose, or
-// is at the same place as a body that darkens it. Call it after each update. Each call checks only the next
-// few instances, so its cost does not depend on the size of the crowd.
+// Logs faults of bodies, each once per instance. A body may be mostly below its ground, far larger than in
+// the rest pose, or at the same place as another body that darkens it. Call it after each update. Each call
+// checks only the next few instances, so its cost does not depend on the size of the crowd.
 void log_bodies(const Context& context, Scene& scene);
 
 // Logs once per instance if its AO is read before the first update on the CPU. You may call it on every

@@ -48,8 +48,8 @@ T gaussian_square_integral(T sharpness) {
   return gaussian_integral(2 * sharpness);
 }
 
-// The product of two lobes with the axes p and q and the sharpness a and b. It is a lobe of sharpness l = |a
-// p + b q|, scaled by e^(l - a - b). `apart` is 1 - dot(p, q).
+// The product of two lobes, which have the axes p and q and the sharpness a and b. It is a lobe of sharpness
+// l = |a p + b q|, scaled by e^(l - a - b). `apart` is 1 - dot(p, q).
 template <std::floating_point T>
 struct ProductShape {
   T sharpness;

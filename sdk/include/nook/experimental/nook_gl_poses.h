@@ -151,7 +151,7 @@ typedef struct nook_gl_pool_desc {
  * thread. Errors: INVALID_ARGUMENT, UNSUPPORTED (gl has no compute shaders), OUT_OF_MEMORY. */
 NOOK_API nook_result nook_gl_scene_set_pool(nook_gl gl, nook_scene scene, const nook_gl_pool_desc* desc);
 
-/* The view of one instance of a scene with a pool, as nook_gl_view. The stride is 4. */
+/* The view of one instance in a scene that has a pool; like nook_gl_view, with a stride of 4. */
 typedef struct nook_gl_pool_view {
   uint64_t offset;
   uint32_t buffer;
@@ -179,7 +179,7 @@ NOOK_API nook_result nook_gl_scene_read_pool(nook_gl gl, nook_scene scene, const
                                              uint32_t count, nook_gl_pool_view* views,
                                              nook_gl_pool_info* info);
 
-/* A table on the GPU with one entry for each instance of a scene with a pool. If you draw a crowd with
+/* A table on the GPU that has one entry for each instance of a scene with a pool. If you draw a crowd with
  * indirect or multi-draw calls, your shaders use this table instead of views to find the AO.
  *
  * The table begins at the start of the buffer. The entry of an instance has the index (instance & 0xfffffu) -
@@ -198,7 +198,7 @@ typedef struct nook_gl_pool_table {
   /* The OpenGL name of the buffer. Bind it for reading only, at any binding point. */
   uint32_t buffer;
   uint32_t entry_count;
-  /* The number of buffers with the AO of the model's near instances. */
+  /* The number of buffers that hold the AO of the model's near instances. */
   uint32_t ao_buffer_count;
 } nook_gl_pool_table;
 

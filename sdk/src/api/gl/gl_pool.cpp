@@ -1,4 +1,4 @@
-// The C functions of nook_gl_poses.h for the pool of a scene.
+// The pool functions of nook_gl_poses.h.
 #include <nook/experimental/nook_gl_poses.h>
 
 #include "sdk/src/api/entry.h"
