@@ -257,7 +257,7 @@ typedef struct nook_context_desc {
   void* parallel_for_user;
   /* The instruction set of all objects that you create from this context; default NOOK_ISA_AUTO. */
   nook_isa isa;
-  /* Your units per metre, such as 100 for centimetres; > 0, default 1. Default lengths are scaled by it. */
+  /* Your units per metre, such as 100 for centimetres; > 0, default 1. Nook scales default lengths by it. */
   float units_per_metre;
 } nook_context_desc;
 static inline nook_result nook_context_desc_init(nook_context_desc* desc) {

@@ -152,9 +152,9 @@ NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiv
 
 /* From the next update on, links each instance to its `k` nearest instances, in addition to the links of
  * nook_scene_link. `k` is 0 (off) to 16. `max_distance` limits the distance between the centres of bounding
- * spheres, in metres. Each update searches the nearest instances again; if the instances are spread out, the
- * time grows linearly with their number. This call may allocate, so that the update does not have to. One at
- * a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * spheres, in metres. Each update searches for the nearest instances again; if the instances are spread out,
+ * the time grows linearly with their number. This call may allocate, so that the update does not have to. One
+ * at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
 /* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space. plane_xyzd
@@ -206,8 +206,8 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
 NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_lobe* lobes,
                                           uint32_t lobe_count);
 
-/* Sets the camera position, in world space and metres. Updates choose levels of detail by the distance to it.
- * Before the first call, or with NULL, all instances have full detail. One at a time. Errors:
+/* Sets the camera position, in world space and metres. Updates choose levels of detail by the distance to the
+ * camera. Before the first call, or with NULL, all instances have full detail. One at a time. Errors:
  * INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
@@ -253,8 +253,8 @@ NOOK_API nook_result nook_scene_describe(nook_scene scene, nook_scene_info* info
  * Pass the matrices that your engine already has: the skinning matrices of your vertex shader
  * (NOOK_POSE_SKINNING), or the world matrices of the joints (NOOK_POSE_JOINT_TO_WORLD). Nook converts them to
  * its own rest-to-world matrices. Rest space is the bind pose in metres with the node transforms of the file
- * applied. Do not convert them yourself: in many files, a node above the skeleton scales by 0.01 or rotates
- * by 90 degrees. If AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
+ * applied. Do not convert your matrices yourself: in many files, a node above the skeleton scales by 0.01 or
+ * rotates by 90 degrees. If AO looks wrong, call nook_model_check_pose. docs/poses.md has the formula. */
 
 /* The kind of matrices that you pass. Each kind transforms from another space. All kinds transform to world
  * space, or, if you set place_3x4, to the space that place_3x4 maps to world space. */
@@ -402,7 +402,7 @@ typedef struct nook_check_vertex_info {
   uint32_t struct_size;
   /* The index of the vertex, in the order of nook_scene_read. */
   uint32_t vertex;
-  /* Its position in rest space in metres, and its position in the mesh's space (the file's POSITION). */
+  /* The vertex's position in rest space in metres, and in the mesh's space (the file's POSITION). */
   float position[3], mesh_position[3];
   /* The bone with the largest weight. */
   uint32_t bone;
@@ -524,7 +524,7 @@ static inline nook_result nook_vertex_match_desc_init(nook_vertex_match_desc* de
 
 typedef struct nook_vertex_match_info {
   uint32_t struct_size;
-  /* The number of your vertices without a match, and of those that match vertices with different AO. */
+  /* The number of your vertices without a match, and the number that match vertices with different AO. */
   uint32_t unmatched, ambiguous;
   /* The result as text, with the first vertex of each kind and what to do; empty if every match is unique. */
   char text[320];

@@ -93,8 +93,8 @@ NOOK_API nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* 
 /* Writes the pose at a time of a clip: matrices of the kind NOOK_POSE_REST_TO_WORLD in the layout
  * NOOK_TRANSFORM_ROWS_3X4. `place_3x4` transforms the clip's space (metres) to world space, by a rotation, a
  * uniform scale and a translation. NULL means that the pose stays in the clip's space. Matrices are
- * interpolated linearly between two frames. Halfway between, a bone that turns by an angle is scaled by the
- * cosine of half the angle. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
+ * interpolated linearly between two frames. So halfway between, a bone that turns by an angle is scaled by
+ * the cosine of half this angle. The call does not allocate. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time,
                                           const float* place_3x4, float* bones_3x4, uint32_t bone_count);
 

@@ -59,7 +59,7 @@ typedef int32_t nook_gl_state_mode;
 typedef struct nook_gl_desc {
   uint32_t struct_size, type;
   const void* next;
-  /* Required. Nook passes get_proc_user as its first argument. */
+  /* Required. Nook passes get_proc_user as the first argument. */
   nook_gl_proc_fn get_proc;
   void* get_proc_user;
   /* The highest tier to use; default NOOK_GL_TIER_BEST. state_mode is NOOK_GL_STATE_PRESERVE by default. */
@@ -95,7 +95,7 @@ typedef struct nook_gl_info {
   /* GL_VERSION and GL_RENDERER of the OpenGL context; both are valid while `gl` lives. */
   const char* version;
   const char* renderer;
-  /* The bytes of all OpenGL buffers of `gl` now, and the bytes of those that hold AO. */
+  /* The bytes of all OpenGL buffers of `gl` now, and the bytes of the buffers that hold AO. */
   uint64_t buffer_bytes, ao_bytes;
 } nook_gl_info;
 
@@ -200,9 +200,9 @@ NOOK_API nook_result nook_gl_scene_write(nook_gl gl, nook_scene scene, const noo
  * text and the text of a probe upload, in any order. The values agree with nook_scene_read within 4e-3; the
  * difference comes from two approximate square roots per term. */
 
-/* Deletes the OpenGL objects that `gl` holds for a scene, but not the scene. All nook_gl_view of the scene's
- * instances become invalid. Without this call, the objects of a destroyed scene are deleted by the next
- * update or by nook_gl_destroy. Context thread. Errors: INVALID_ARGUMENT, GL. */
+/* Deletes the OpenGL objects that `gl` holds for a scene, but not the scene. All views (nook_gl_view) of the
+ * scene's instances become invalid. Without this call, the objects of a destroyed scene are deleted by the
+ * next update or by nook_gl_destroy. Context thread. Errors: INVALID_ARGUMENT, GL. */
 NOOK_API nook_result nook_gl_scene_release(nook_gl gl, nook_scene scene);
 
 /* ---- A frame of the host ----
@@ -316,7 +316,7 @@ typedef struct nook_gl_frame_desc {
   uint32_t target_name;
   /* Default NOOK_BLEND_WRITE. */
   nook_blend blend;
-  /* Set 1 if you recreated a texture or target under an old name since the last call. Default 0. */
+  /* Set 1 if, since the last call, a new texture or target got the name of an old one. Default 0. */
   int32_t textures_changed;
   /* For passes with views: matrices of 16, 16 and 9 floats for each view, which replace `projection`, `view`
    * and `normal_matrix`. NULL (default): all views use the single matrix above. */

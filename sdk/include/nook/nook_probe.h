@@ -151,7 +151,7 @@ NOOK_API nook_result nook_probe_fit_describe(nook_probe_fit fit, nook_probe_fit_
 
 /* For a grid, set `counts`, `origin_ws` and `spacing_ws`. Set one of three sources of light: `fits`, `lobes`,
  * or `functions` with `coefficients`. In arrays with an entry for each probe, x varies fastest, then y, then
- * z. The call copies all arrays, and you may destroy the fits after it. */
+ * z. The call copies all arrays. You may destroy the fits afterwards. */
 typedef struct nook_probe_desc {
   uint32_t struct_size, type;
   const void* next;

@@ -16,7 +16,7 @@ extern "C" {
 /* Writes the key of a bake without baking. `desc` is the descriptor that you would pass to nook_bake_start.
  * The key is a SHA-256 hash. It depends on all settings, the content that the bake reads, and the version
  * number of the baking code. It also depends on the versions of Nook, Embree and the compiler, and on the CPU
- * instruction set. It does not depend on threads, progress and file names. Two bakes with the same key give
+ * instruction set. It does not depend on threads, progress or file names. Two bakes with the same key give
  * the same file. `size` is the size of `key`, at least NOOK_BAKE_KEY_SIZE. The call takes about as long as
  * reading the data of the descriptor. On failure, `key` is not changed. Any thread. Errors: INVALID_ARGUMENT
  * and BAD_FILE as nook_bake_start, INVALID_ARGUMENT also if `size` is too small, UNSUPPORTED (NOOK_ISA in the

@@ -62,8 +62,8 @@ static inline nook_result nook_bake_start_synthesis(const nook_bake_synthesis_de
 
 /* ---- Radiance transfer: from a static textured shape in memory ---- */
 
-/* A shape, in metres, in the space of its vertices. At run time, you rotate the light into this space.
- * nook_bake_start copies all arrays. docs/transfer.md describes what is baked. */
+/* A shape. Its vertices are in metres, in the shape's own space. At run time, you rotate the light into this
+ * space. nook_bake_start copies all arrays. docs/transfer.md describes what is baked. */
 typedef struct nook_bake_transfer_desc {
   uint32_t struct_size, type;
   const void* next;

@@ -86,7 +86,7 @@ typedef struct nook_scene_key_point {
 NOOK_API nook_result nook_scene_read_key_points(nook_scene scene, nook_instance_id instance,
                                                 nook_scene_key_point* out, uint32_t* count);
 
-/* Writes the instances that darken an instance by links, from nook_scene_link or as nearest neighbours.
+/* Writes the instances that darken an instance by links (nook_scene_link and nook_scene_link_nearest).
  * Casters that the last update skipped are left out. After you remove any instance from the scene, the call
  * finds no casters until the next update. Set *count to the capacity of `out`; the call sets it to the number
  * of casters. With `out` NULL, the call only sets *count. Any thread, while no call changes the scene.

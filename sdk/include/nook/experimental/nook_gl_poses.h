@@ -1,7 +1,7 @@
 /* Sets the poses of a crowd in one call, from transforms that your animation system has computed on the GPU.
  * This needs OpenGL 4.3 or OpenGL ES 3.1. On the tiers NOOK_GL_TIER_33 and NOOK_GL_TIER_ES30
- * (nook_gl_info.tier), the calls fail with NOOK_ERROR_UNSUPPORTED. There, use baked clips (nook_clips.h) or
- * nook_scene_set_pose.
+ * (nook_gl_info.tier), the calls fail with NOOK_ERROR_UNSUPPORTED. On these tiers, use baked clips
+ * (nook_clips.h) or nook_scene_set_pose.
  *
  * Write the transforms of all instances to your own buffer, call nook_gl_scene_set_poses once for each model,
  * and then nook_gl_scene_update. Culling, the ground, neighbours and levels of detail run on the CPU and need

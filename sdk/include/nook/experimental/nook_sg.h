@@ -45,7 +45,7 @@ enum {
   /* One spherical Gaussian (after Wang et al. 2009). */
   NOOK_PROBE_SPECULAR_ISOTROPIC = 0,
   /* Four spherical Gaussians, one around each of four visible microfacet normals (Heitz 2018). For grazing
-   * views, or if alpha_x and alpha_y differ, they form a stretched lobe together. */
+   * views, or if alpha_x and alpha_y differ, together they form a stretched lobe. */
   NOOK_PROBE_SPECULAR_ANISOTROPIC = 1
 };
 typedef int32_t nook_probe_specular_form;
@@ -125,14 +125,14 @@ NOOK_API nook_result nook_sg_to_sh(const nook_lobe* lobes, uint32_t lobe_count, 
 /* The value of `order` for the 5 x RGB coefficients of nook_sh_to_zh3. */
 enum { NOOK_SH_ZH3 = 100 };
 
-/* Evaluates the radiance from `count` unit directions, exactly for these coefficients. `order` is 1 to 4, or
+/* Evaluates the radiance from `count` unit directions, without approximation. `order` is 1 to 4, or
  * NOOK_SH_ZH3. The result is not clamped at 0, and can be negative opposite a sun.
  * Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_radiance(const float* coefficients, uint32_t order, const float* directions,
                                       float* rgb, size_t count);
 
-/* Evaluates the irradiance on `count` surfaces with the given unit normals, exactly for these coefficients.
- * `order` is 1 to 4, or NOOK_SH_ZH3. The result is not clamped at 0. Any thread. Errors: INVALID_ARGUMENT. */
+/* Evaluates the irradiance on `count` surfaces with the given unit normals, without approximation. `order` is
+ * 1 to 4, or NOOK_SH_ZH3. The result is not clamped at 0. Any thread. Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_sh_irradiance(const float* coefficients, uint32_t order, const float* normals,
                                         float* rgb, size_t count);
 

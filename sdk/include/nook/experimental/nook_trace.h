@@ -39,7 +39,7 @@ typedef struct nook_bake_character_study_desc {
    * NOOK_FORM_DEFAULT: the fit that belongs to nook_bake_character_desc.form. */
   nook_form fit;
   /* The number of recorded poses of your game, in the layout of extra_poses_3x4. At the end, the bake fits
-   * two numbers of each vertex to these poses, the constant and the scale of its AO. Default 0: no poses. */
+   * two numbers for each vertex to these poses: the constant and the scale of its AO. Default 0: no poses. */
   uint32_t calibration_pose_count;
   const float* calibration_poses_3x4;
 } nook_bake_character_study_desc;
@@ -106,7 +106,7 @@ NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float*
 /* ---- Path-traced irradiance of a scene under an environment ---- */
 
 /* A latitude-longitude map of linear radiance, which is constant within a texel. Rows go from +y to -y, and
- * columns go around y. The middle column looks along +x; a quarter of the width to the right, columns look
+ * columns go around y. The middle column looks along +x. The column a quarter of the width to its right looks
  * along +z. */
 typedef struct nook_bake_environment {
   /* 3 floats in [0, 1e15] for each texel, rows from the top. May be NULL only if width is 0. The environment

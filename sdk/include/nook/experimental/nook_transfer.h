@@ -127,8 +127,8 @@ NOOK_API nook_result nook_transfer_check(nook_transfer transfer, const nook_tran
 
 /* The layout of a map. */
 enum {
-  /* Latitude and longitude: rows go from +y down to -y. The middle column looks along +x; a quarter of the
-   * width to the right, columns look along +z. */
+  /* Latitude and longitude: rows go from +y down to -y. The middle column looks along +x. The column a
+   * quarter of the width to its right looks along +z. */
   NOOK_TRANSFER_MAP_LATLONG = 0,
   /* Six square faces, one below the other (+x, -x, +y, -y, +z, -z), each with the axes of an OpenGL cube
    * map. */
