@@ -124,8 +124,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m256i bits = _mm256_castps_si256(a.v);
-  // 0x3f3504f3 are the bits of 1/sqrt(2). They are subtracted first, so that the shift gives mantissas of
-  // sqrt(2) and above the next exponent.
+  // 0x3f3504f3 holds the bits of 1/sqrt(2). It is subtracted before the shift, so that mantissas of sqrt(2)
+  // and above get the next exponent.
   const __m256i e = _mm256_srai_epi32(_mm256_sub_epi32(bits, _mm256_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm256_cvtepi32_ps(e);
   mantissa = _mm256_castsi256_ps(_mm256_sub_epi32(bits, _mm256_slli_epi32(e, 23)));

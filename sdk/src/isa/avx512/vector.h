@@ -122,8 +122,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m512i bits = _mm512_castps_si512(a.v);
-  // 0x3f3504f3 are the bits of 1/sqrt(2). They are subtracted first, so that the shift gives mantissas of
-  // sqrt(2) and above the next exponent.
+  // 0x3f3504f3 holds the bits of 1/sqrt(2). It is subtracted before the shift, so that mantissas of sqrt(2)
+  // and above get the next exponent.
   const __m512i e = _mm512_srai_epi32(_mm512_sub_epi32(bits, _mm512_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm512_cvtepi32_ps(e);
   mantissa = _mm512_castsi512_ps(_mm512_sub_epi32(bits, _mm512_slli_epi32(e, 23)));

@@ -139,8 +139,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const int32x4_t bits = vreinterpretq_s32_f32(a.v);
-  // 0x3f3504f3 are the bits of 1/sqrt(2). They are subtracted first, so that the shift gives mantissas of
-  // sqrt(2) and above the next exponent.
+  // 0x3f3504f3 holds the bits of 1/sqrt(2). It is subtracted before the shift, so that mantissas of sqrt(2)
+  // and above get the next exponent.
   const int32x4_t e = vshrq_n_s32(vsubq_s32(bits, vdupq_n_s32(0x3f3504f3)), 23);
   exponent = vcvtq_f32_s32(e);
   mantissa = vreinterpretq_f32_s32(vsubq_s32(bits, vshlq_n_s32(e, 23)));

@@ -120,8 +120,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
   const __m128i bits = _mm_castps_si128(a.v);
-  // 0x3f3504f3 are the bits of 1/sqrt(2). They are subtracted first, so that the shift gives mantissas of
-  // sqrt(2) and above the next exponent.
+  // 0x3f3504f3 holds the bits of 1/sqrt(2). It is subtracted before the shift, so that mantissas of sqrt(2)
+  // and above get the next exponent.
   const __m128i e = _mm_srai_epi32(_mm_sub_epi32(bits, _mm_set1_epi32(0x3f3504f3)), 23);
   exponent = _mm_cvtepi32_ps(e);
   mantissa = _mm_castsi128_ps(_mm_sub_epi32(bits, _mm_slli_epi32(e, 23)));

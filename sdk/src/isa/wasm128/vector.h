@@ -117,8 +117,8 @@ inline Float rsqrt_cubed(Float a, float scale) {
 }
 
 inline void split(Float a, Float& exponent, Float& mantissa) {
-  // 0x3f3504f3 are the bits of 1/sqrt(2). They are subtracted first, so that the shift gives mantissas of
-  // sqrt(2) and above the next exponent.
+  // 0x3f3504f3 holds the bits of 1/sqrt(2). It is subtracted before the shift, so that mantissas of sqrt(2)
+  // and above get the next exponent.
   const v128_t e = wasm_i32x4_shr(wasm_i32x4_sub(a.v, wasm_i32x4_splat(0x3f3504f3)), 23);
   exponent = wasm_f32x4_convert_i32x4(e);
   mantissa = wasm_i32x4_sub(a.v, wasm_i32x4_shl(e, 23));
