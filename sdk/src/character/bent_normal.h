@@ -1,7 +1,7 @@
-// Bent normals from occluded directions. The occluded direction of a point is the mean direction over its
-// cosine-weighted hemisphere, where an open direction contributes the zero vector. If all directions are
-// open, the occluded direction is 0. If no direction is open, it is 2/3 of the normal. The bent normal is the
-// vector (2/3 of the normal - occluded direction), normalised.
+// Computes bent normals from occluded directions. The occluded direction of a point is the mean direction
+// over its cosine-weighted hemisphere, where an open direction contributes the zero vector. If all directions
+// are open, the occluded direction is 0. If no direction is open, it is 2/3 of the normal. The bent normal is
+// the vector (2/3 of the normal - occluded direction), normalised.
 #pragma once
 
 #include <cmath>
@@ -31,7 +31,7 @@ inline Vec3 bent_normal(Vec3 normal, Vec3 occluded) {
   return size > 1e-6f ? left * (1 / size) : normal;
 }
 
-// Encodes a coordinate from -1 to 1 as a signed byte, with 127 for 1, as normalised GL_BYTE does.
+// Encodes a coordinate from -1 to 1 as a signed byte, like a normalised GL_BYTE: 1 becomes 127.
 inline std::int8_t encode_coordinate(float coordinate) {
   return static_cast<std::int8_t>(std::lround(std::fmin(std::fmax(coordinate, -1.0f), 1.0f) * 127));
 }

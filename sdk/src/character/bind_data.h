@@ -1,7 +1,7 @@
-// The rest pose of a model's rigged file. Engines have joint matrices or skinning matrices, which do not use
-// this library's rest space. The bind data is used to convert the engine's matrices (pose_source.h), to
-// compare the host's skinned vertices with the model's (pose_check.h), and to find the model's vertices in a
-// host's mesh (host_vertices.h).
+// Bind data describes the rest pose of the rigged file from which a model was baked. The joint matrices and
+// skinning matrices of engines do not use this library's rest space. So the bind data is used to convert the
+// engine's matrices (pose_source.h), to compare the host's skinned vertices with the model's (pose_check.h),
+// and to find the model's vertices in a host's mesh (host_vertices.h).
 #pragma once
 
 #include <array>

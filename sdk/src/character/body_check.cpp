@@ -13,7 +13,7 @@ struct Depth {
   float lowest = INFINITY;  // signed distance of the lowest point from the plane, in metres
 };
 
-// Returns true if the bones of the current pose are on the CPU, or if a clip on the CPU tells them.
+// Returns true if the bones of the current pose are on the CPU, or if a clip on the CPU can provide them.
 bool has_bones(const Instance& instance) {
   return !instance.input.is_posed_on_gpu && (instance.input.clip.is_late || !instance.bones().empty());
 }
@@ -22,9 +22,10 @@ float height_of_bound(const Sphere& bound, const Plane& plane) {
   return dot(plane.normal, bound.centre) - plane.offset;
 }
 
-// Use it for poses whose bones are only on the GPU. A body that lies on the ground and a body that stands in
-// it up to the hips have the same bound. So nothing is below unless the centre is deep. A standing body
-// reaches about 0.85 of the radius of its rest pose downwards. The host may pass a bound that is larger.
+// Estimates the depth from the bound. Use it for poses whose bones are only on the GPU. A body that lies on
+// the ground can have the same bound as a body that stands in the ground up to its hips. So a share is below
+// the plane only if the bound's centre is deep. A standing body reaches down to about 0.85 bounding radii of
+// its rest pose below the centre. The host may pass a larger bound.
 Depth depth_of_bound(const Instance& instance, const Plane& plane) {
   const Sphere& bound = instance.input.bound;
   const float in_rest = instance.model->model.bounding_radius * instance.input.largest_scale();
@@ -55,8 +56,8 @@ Depth depth_below(const Instance& instance, const Plane& plane) {
   return has_bones(instance) ? depth_of_spheres(instance, plane) : depth_of_bound(instance, plane);
 }
 
-// Decoding the bones of a clip takes time. The centre of a standing body's bound is about 0.8 of its radius
-// above the ground.
+// Avoids decoding the bones of a clip, which takes time. The centre of a standing body's bound is about 0.8
+// of its radius above the ground.
 bool is_surely_above(const Instance& instance, const Plane& plane) {
   const Sphere& bound = instance.input.bound;
   return instance.input.clip.is_late && height_of_bound(bound, plane) > 0.2f * bound.radius;
@@ -80,7 +81,7 @@ GroundFinding check_ground(const Instance& instance) noexcept {
   } others[] = {{GroundMistake::turned_normal, {turned, given.offset}},
                 {GroundMistake::both_signs, {turned, -given.offset}},
                 {GroundMistake::offset_sign, {given.normal, -given.offset}}};
-  // The host most likely meant a plane on which the body stands, the nearest one if there are several.
+  // The host most likely meant a plane on which the body stands. If there are several, takes the nearest one.
   const float radius = instance.input.bound.radius;
   float nearest = 0.3f * radius;
   for (const auto& other : others) {
@@ -101,9 +102,9 @@ float relative_size(const Instance& instance) noexcept {
 
 const Instance* caster_at_same_place(const Scene& scene, const Instance& instance) noexcept {
   const Sphere& own = instance.input.bound;
-  if (instance.plan.is_far) return nullptr;  // its casters are of an earlier update
+  if (instance.plan.is_far) return nullptr;  // its casters come from an earlier update
   for (const std::uint32_t slot : instance.plan.casters) {
-    if (slot >= scene.instances.size()) continue;  // of an earlier update
+    if (slot >= scene.instances.size()) continue;  // the list comes from an earlier update
     const Instance& other = scene.instances[slot];
     if (other.id && &other != &instance && !other.plan.is_far && other.model.get() == instance.model.get() &&
         length(other.input.bound.centre - own.centre) < 0.01f * own.radius)

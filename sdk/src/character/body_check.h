@@ -15,20 +15,22 @@ enum class GroundMistake { height, turned_normal, offset_sign, both_signs };
 
 struct GroundFinding {
   bool is_wrong = false;
-  float share_below = 0;  // of the body, by its proxy spheres; by its bound if only the GPU has the bones
-  float depth = 0;        // of the lowest of them below the plane, in metres
-  GroundMistake mistake = GroundMistake::height;  // the one that would leave the body just above the plane
+  float share_below = 0;  // share of the proxy spheres below the ground; estimated from the bound if only the
+                          // GPU has the bones
+  float depth = 0;        // depth of the lowest point below the plane, in metres
+  // The mistake without which the body would stand on the plane.
+  GroundMistake mistake = GroundMistake::height;
 };
 
 // A ground is wrong if more than 5 % of the body is deeper below it than 0.3 bounding radii, which is the
 // middle of a human shin. Feet that sink in, lower steps of stairs and bodies that lie down do not reach as
-// deep. It is also wrong if more than 40 % are below it, as with a plane that stands upright in the body. If
-// only the GPU has the bones, the centre of the bound must be deeper than 0.3 of the bound's radius. The
-// instance must have a ground.
+// deep. A ground is also wrong if more than 40 % of the body is below it, for example if the plane stands
+// upright in the body. If only the GPU has the bones, the centre of the bound must be deeper than 0.3 of the
+// bound's radius. The instance must have a ground.
 GroundFinding check_ground(const Instance& instance) noexcept;
 
 // Returns the radius of the posed body, divided by the radius of the rest pose in the same scale. Limbs can
-// make it about 1.5. Bones whose translations are in another unit, or that are another bone's, lie far apart.
+// make it about 1.5. The result is larger if the translations are in another unit, or if bones were swapped.
 // Returns 1 if only the GPU has the pose.
 float relative_size(const Instance& instance) noexcept;
 inline constexpr float max_relative_size = 4;

@@ -1,5 +1,5 @@
 // Tests whether the matrix of a bone is a rotation with uniform scale. All code uses this one test, so that
-// float and double matrices are treated alike.
+// float and double matrices get the same result.
 #pragma once
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 namespace nook {
 
-// The lengths of, and angles between, the axes of a matrix. The axes are the columns of its 3x3 part.
+// The lengths of the axes of a matrix, and the angles between them. The axes are the columns of its 3x3 part.
 template <class Real>
 struct BoneAxes {
   std::array<Real, 3> squared{};  // length of each axis

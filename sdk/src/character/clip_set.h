@@ -32,7 +32,7 @@ struct ClipRange {
 
   String name;
   float duration_s = 0;
-  std::uint32_t first_frame = 0;  // the clips of a set follow each other
+  std::uint32_t first_frame = 0;  // clips are stored one after another
   std::uint32_t frame_count = 0;  // at least 1
 };
 
@@ -101,7 +101,7 @@ std::uint64_t clip_model_hash(const CharacterModel& model);
 void check_clip_model(const ClipSet& set, const CharacterModel& model);
 
 // Baked clips as .nook files. Version 1 of the kind "CLIP" has the sections
-//   HEAD  u64 hash of the model's orders; u32 frames, welded vertices; u16 modes of AO, modes of the pose
+//   HEAD  u64 clip_model_hash; u32 frames, welded vertices; u16 modes of AO, modes of the pose
 //   NAME  varint number of clips; for each: varint length and bytes of its name, f32 seconds, varint frames
 //   AO    f32 scale of each mode; frames x modes i16 weights; modes x vertices i8
 //   BONE  varint number of bones; for each: f32 centre x, y, z, radius

@@ -1,5 +1,5 @@
-// Finds the side to which each vertex of a host's mesh faces, from its triangles. Smooth normals do not show
-// the side if both faces have the same normal, as on a sharp fold or a leaf.
+// Uses the triangles of a host's mesh to find the side that each vertex faces. Smooth normals do not show the
+// side if both faces have the same normal, as on a sharp fold or a leaf.
 #pragma once
 
 #include <cstdint>

@@ -13,8 +13,8 @@ struct GpuPose {
   float largest_scale = 1;  // largest scale of the bones
 };
 
-// A bit of InstanceInput::reported, in addition to the topics of PoseNotes. It is set after a message was
-// logged that the instance does not darken the world.
+// A bit of InstanceInput::reported, in addition to the topics of PoseNotes. It is set after the log has
+// reported that the instance does not darken the world.
 inline constexpr std::uint32_t topic_no_world_casters = 8;
 
 // From now on, the pose of the instance is on the GPU. If the instance plays a clip, the call ends the clip,

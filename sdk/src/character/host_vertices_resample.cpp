@@ -96,8 +96,8 @@ struct Share {
 
 // Weights the nearest candidates by the inverse square of their distance. The weights sum to 1. If the point
 // is at the place of a baked vertex, this vertex gets nearly all of the weight; only a millionth is left for
-// the others. Where parts of a body meet, vertices at the same place face different ways. A factor with a
-// high power of the cosine between the normals chooses between them.
+// the others. Where parts of a body meet, vertices at the same place face different ways. To choose between
+// them, the weights are also multiplied by a high power of the cosine between the normals.
 Vector<Share> shares_of(const Oriented& at, const SortedPoints& baked, std::span<const Oriented> points,
                         Memory* memory) {
   Vector<Share> shares(memory);

@@ -29,7 +29,7 @@ void check_lobe(const SphericalGaussian& lobe, std::size_t index) {
                     index, double(channel));
 }
 
-// Takes over the storage, and sets the pointers of the lanes to it.
+// Takes ownership of the storage, and points the lanes into it.
 void take_storage(InstanceLight& light, AlignedArray<float> storage) {
   light.storage = std::move(storage);
   const std::size_t length = light.storage.size() / light_lanes;

@@ -49,9 +49,9 @@ struct LoadedClips : RefCounted {
   // The bound of each frame. With it, the CPU need not compute the bones of a crowd. The radius is infinite
   // if the values of a frame are too large for a pose.
   const Vector<FrameBound> frame_bound;
-  const float reach;          // metres; upper bound of the distance from the origin of the clip's space, for
-                              // all frames
-  const float largest_scale;  // of all frames
+  // In all frames, the body is within this distance, in metres, of the origin of the clip's space.
+  const float reach;
+  const float largest_scale;  // the largest scale of the bones in all frames
 
   const std::int8_t* block_modes(std::uint32_t block) const {
     return block_mode.data() + std::size_t(block) * block_slots * set.ao.modes;
@@ -74,9 +74,10 @@ Mat3x4 decode_bone(const ClipSet& set, const FrameMix& mix, const Mat3x4& place,
 // frame, the result is the frame's own bound.
 PoseBound bound_of_mix(const LoadedClips& clips, const FrameMix& mix) noexcept;
 
-// The tables of clips as texels of four components, for the textures that shaders/clips/host.glsl reads.
+// The next functions write the tables of clips as texels of four components. shaders/clips/host.glsl reads
+// the textures.
 
-// A 2D texture whose rows follow one another.
+// The size of a 2D texture. The rows are stored one after another.
 struct ClipTexels {
   static constexpr std::uint32_t width = NOOK_TEXEL_ROW;
   std::uint64_t texels = 0;

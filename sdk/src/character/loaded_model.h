@@ -35,7 +35,7 @@ struct LoadedModel : RefCounted {
   const LinearLayer linear;
   const SphereGroups groups;         // groups of the spheres of full detail
   const SphereTree sphere_tree;      // tree of the spheres of full detail
-  const Vector<LoadedLevel> levels;  // for model.levels, without full detail
+  const Vector<LoadedLevel> levels;  // one for each of model.levels; full detail is not included
 
   // A run of consecutive file vertices that read their AO from one chunk of slots of the linear layer. Their
   // slots, relative to the first slot of the chunk, are slot_in_chunk[first_entry...first_entry + vertices].
@@ -50,7 +50,7 @@ struct LoadedModel : RefCounted {
   AlignedArray<FileRun> file_run;
   AlignedArray<std::uint16_t> slot_in_chunk;
   AlignedArray<float>
-      open_without_bias;  // 1 for each slot, in place of LinearView::open_bias if self-shadow is switched off
+      open_without_bias;  // 1 for each slot; replaces LinearView::open_bias if self-shadow is off
 
   // For each bone, a sphere in rest space that contains all key points that the bone moves, and all proxy
   // spheres of the bone. The radius is < 0 if there are none. If you transform each sphere by its bone, the
@@ -68,8 +68,8 @@ struct LoadedModel : RefCounted {
 };
 
 // Renumbers the key points of a model so that each group of key_point_group key points lies close together. A
-// whole group can then use the same node for a far part of the body. The model's results stay the same. The
-// model must have passed check_model.
+// whole group can then use the same tree node for a far part of the body. The model's results stay the same.
+// The model must have passed check_model.
 CharacterModel with_near_key_points_together(CharacterModel model, Memory* memory);
 
 }  // namespace nook

@@ -80,7 +80,7 @@ void check_key_points(const CharacterModel& model, const Check& check) {
       check.that(within(point.weight[b], 0, 1), "bone weight of key point", k, point.weight[b], "0 to 1");
       sum += point.weight[b];
     }
-    // The tolerance: the error of four float additions and a conversion from double is well below 1e-4.
+    // The tolerance of 1e-4 is well above the error of four float additions and a conversion from double.
     check.that(within(sum, 1 - 1e-4f, 1 + 1e-4f), "sum of bone weights of key point", k, sum, "1");
     check.that(within(point.saturation, 0, max_saturation), "saturation of key point", k, point.saturation,
                "0 to 64");
@@ -109,7 +109,7 @@ void check_linear_layer(const CharacterModel& model, const Check& check) {
     for (std::size_t e = i * model.influences; e < (i + 1) * model.influences; ++e)
       check.that(model.alpha[e] > 0 || model.blend[e] == 0, "blend weight of vertex", i, model.blend[e],
                  "0, because its alpha is 0");
-    // The tolerance: the sum has eight additions of values up to 16.
+    // The tolerance allows for the rounding errors of eight additions of values up to 16.
     check.that(within(blend_sum, 1 - 1e-4f, 1 + 1e-4f), "sum of blend weights of vertex", i, blend_sum, "1");
     check.that(within(std::abs(model.bias[i]), 0, max_coefficient), "bias of vertex", i, model.bias[i],
                "-1e4 to 1e4");

@@ -45,7 +45,7 @@ struct CharacterBits {
   static constexpr int close_weight = 16;
 };
 
-// A vertex may reuse the key points of an earlier vertex. It can refer to this many vertices before it.
+// A vertex may reuse the key points of one of this many vertices before it.
 inline constexpr std::size_t max_references = std::size_t{1} << CharacterBits::reference;
 
 // A bone's name shares at most this many leading bytes with the previous name. Without this limit, the names

@@ -237,7 +237,7 @@ ByteWriter write_static_ao(const CharacterModel& model) {
 }
 
 // Mode 0 is used if the welded vertices are numbered in the order of their first occurrence. In this mode, a
-// bit 0 stands for the next new vertex, and a bit 1 is followed by the index of an earlier vertex. In mode 1,
+// 0 bit stands for the next new vertex, and a 1 bit is followed by the index of an earlier vertex. In mode 1,
 // every index is written.
 ByteWriter write_file_order(const CharacterModel& model) {
   std::uint32_t next = 0;

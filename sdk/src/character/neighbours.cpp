@@ -10,8 +10,8 @@ namespace {
 using Entry = NeighbourTree::Entry;
 using Node = NeighbourTree::Node;
 
-// A leaf holds at most this many points. With smaller leaves, the tests of additional boxes take more time
-// than the tests of points that they save.
+// A leaf holds at most this many points. Smaller leaves need fewer point tests, but the additional box tests
+// take more time than this saves.
 constexpr std::size_t max_leaf_points = 8;
 
 // Returns how many times the range must be halved until each part fits into a leaf.

@@ -14,8 +14,8 @@ struct Scene;
 
 inline constexpr std::size_t occluded_bytes = 8, bent_normal_bytes = 4;  // bytes per vertex
 
-// For each file vertex, writes x, y, z and 0 for both ends of OccludedEnds. The directions are in the space
-// of the file's normals, or in rest space if the model has no bind data. The model must have occluded
+// For each file vertex, writes x, y, z and 0 for both members of OccludedEnds. The directions are in the
+// space of the file's normals, or in rest space if the model has no bind data. The model must have occluded
 // directions.
 void copy_occluded_directions(const CharacterModel& model, std::int8_t* out,
                               std::size_t stride_bytes) noexcept;

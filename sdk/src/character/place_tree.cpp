@@ -11,7 +11,7 @@ float coordinate(Vec3 p, std::uint8_t axis) {
   return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
 }
 
-// Because of rounding, a computed distance may be smaller than its largest coordinate.
+// Because of rounding, the computed length of a vector may be smaller than its largest coordinate.
 constexpr float rounding = 1 + 1e-6f;
 
 }  // namespace

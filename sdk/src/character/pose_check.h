@@ -29,8 +29,8 @@ struct PoseFinding {
 // appended to the text, if there is room for it. Returns true if this was the first fault.
 bool explain(PoseFinding& finding, nook_pose_fault fault, const char* format, ...) NOOK_PRINTF(3, 4);
 
-// One way to interpret the host's transforms. If the host made a mistake, a reading that differs from the
-// host's own fits the vertices.
+// One way to interpret the host's transforms. If the host made a mistake, the vertices match a different
+// reading than the one that the host declared.
 struct Reading {
   PoseSource source;
   Vector<std::int32_t> map;     // transform of each bone, replaces the source's map; empty: use the source's
@@ -50,9 +50,9 @@ struct Reading {
 
 Affine read_transform(const Reading& reading, std::uint32_t index);
 
-// other_readings returns all readings that differ from the host's own reading by one mistake, without
-// readings_of_other_layouts: the same bytes as transforms of other sizes, layouts and strides.
-// readings_of_two_mistakes returns all readings that differ by two mistakes. Both put the most likely reading
+// other_readings returns the readings that differ from the host's own reading by one mistake, except for
+// wrong layouts. readings_of_other_layouts reads the same bytes with other layouts and strides.
+// readings_of_two_mistakes returns the readings that differ by two mistakes. The most likely reading comes
 // first.
 Vector<Reading> other_readings(const CharacterModel& model, const PoseSource& given, Memory* memory);
 Vector<Reading> readings_of_other_layouts(const PoseSource& given, Memory* memory);

@@ -137,7 +137,8 @@ const char* layout_name(nook_transform_layout layout) {
   return names[layout];
 }
 
-// Three rows of four numbers are read alike, with or without a fourth row after them.
+// Returns true for layouts with rows of four numbers. A fourth row is ignored, so these layouts are read in
+// the same way.
 bool has_rows(nook_transform_layout layout) {
   return layout == NOOK_TRANSFORM_ROWS_3X4 || layout == NOOK_TRANSFORM_ROWS_4X4;
 }
@@ -158,7 +159,7 @@ void add_layout(const PoseSource& given, nook_transform_layout layout, std::size
   reading.source.stride = stride;
   reading.readable_count = static_cast<std::uint32_t>((of_host - bytes) / stride + 1);
   reading.is_laid_out_otherwise = true;
-  // The enumeration has no value for layouts, except for rows and columns.
+  // nook_pose_fault has no value for a wrong layout, except for swapped rows and columns.
   reading.fault = has_rows(layout) != has_rows(given.layout) && layout <= NOOK_TRANSFORM_COLUMNS_4X3 &&
                           given.layout <= NOOK_TRANSFORM_COLUMNS_4X3
                       ? NOOK_POSE_FAULT_TRANSPOSED
@@ -168,8 +169,8 @@ void add_layout(const PoseSource& given, nook_transform_layout layout, std::size
 
 }  // namespace
 
-// The host's own layout with other strides comes first, then each other layout with the host's stride, and
-// tightly packed. The strides 48 and 64 belong to 3x4 and 4x4 matrices.
+// First come readings with the host's own layout and other strides. Then come all other layouts, each with
+// the host's stride and tightly packed. The strides 48 and 64 belong to 3x4 and 4x4 matrices.
 Vector<Reading> readings_of_other_layouts(const PoseSource& given, Memory* memory) {
   Vector<Reading> out(memory);
   const auto bytes_of = [](nook_transform_layout layout) { return floats_of_layout(layout) * sizeof(float); };
@@ -184,8 +185,8 @@ Vector<Reading> readings_of_other_layouts(const PoseSource& given, Memory* memor
   return out;
 }
 
-// If the layout is wrong, a reading with another kind cannot match either. So each other layout is also tried
-// together with each other kind.
+// If the layout and the kind are both wrong, correcting only one of them does not help. So each other kind is
+// also tried with the transposed layout.
 Vector<Reading> readings_of_two_mistakes(const CharacterModel& model, const PoseSource& given,
                                          Memory* memory) {
   Vector<Reading> out(memory);

@@ -5,7 +5,7 @@
 //   0       8      "NOOKPOSE"
 //   8       4      version, 1
 //   12      4      number of bones
-//   16      8      XXH64 of the names of the bones, each with a zero byte behind it
+//   16      8      XXH64 of the names of the bones, each followed by a zero byte
 //   24      48 b   12 floats for each bone, rest space to world: three rows of rotation and scale | translation
 //
 // All numbers are little-endian.
@@ -41,9 +41,9 @@ std::uint64_t hash_of_bone_names(const Names& names) {
 // `out` must have pose_record_size bytes.
 void write_pose_record(std::uint64_t names_hash, std::span<const Mat3x4> bones, std::span<std::byte> out);
 
-// Reads the poses of a file that belong to a body with these bones. The file may also contain poses of other
-// bodies. The function only counts these, in of_others. Throws Failure(NOOK_ERROR_BAD_FILE) if the file has
-// no records, if a record is cut off or has another version, or if a matrix is not finite or far too large.
+// Reads the poses of a file that belong to a body with these bones. If the file also contains poses of other
+// bodies, the function only counts them, in of_others. Throws Failure(NOOK_ERROR_BAD_FILE) if the file has no
+// records, if a record is cut off or has another version, or if a matrix is not finite or far too large.
 struct RecordedPoses {
   std::vector<std::vector<Mat3x4>> poses;
   std::size_t of_others = 0;

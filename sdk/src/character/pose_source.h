@@ -90,8 +90,8 @@ Affine bone_matrix(const CharacterModel& model, const PoseSource& source, std::s
 std::array<double, 3> joint_origin(const CharacterModel& model, std::size_t bone);
 
 // Returns the similarity that is nearest to the matrix. It consists of a rotation, possibly a mirroring, and
-// one scale above 0. It maps the point `fixed` to the same point as `matrix` does. A matrix that already is a
-// similarity to 1e-4 is returned unchanged.
+// one scale above 0. It maps the point `fixed` to the same point as `matrix` does. A matrix that is already a
+// similarity within 1e-4 is returned unchanged.
 Affine projected(const Affine& matrix, const std::array<double, 3>& fixed);
 
 // Facts for the log about a pose that was accepted. A bone is uneven if its matrix is sheared, scaled

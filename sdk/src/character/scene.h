@@ -115,8 +115,8 @@ InstanceArrays make_instance_arrays(const LoadedModel& model, Memory* memory);
 struct InstanceClip {
   Ref<const LoadedClips> clips;  // null: the host sets the pose, and the model computes the self-shadow
   FrameMix mix;                  // the time of the last set_clip or set_clips
-  // True if InstanceParts::bones are of an earlier pose, because only set_clips gave this one. Then `place`
-  // is its place, and decode_late_bones makes the bones (scene_clips.h).
+  // True if InstanceParts::bones still hold an earlier pose, because set_clips sets a pose without its bones.
+  // decode_late_bones then computes the bones from `mix` and `place` (scene_clips.h).
   bool is_late = false;
   Mat3x4 place;
   std::uint64_t call = 0;  // the value of Scene::clip_calls at the last set_clips that included this instance
@@ -167,12 +167,13 @@ struct InstancePlan {
                                     // is below cutoff_error
   std::uint32_t level = 0;          // level of detail of the model, 0 is full detail
   bool due = true;                  // evaluated in this update; other instances keep their results
-  // True in the far form of a pool (scene_pool.h). Then the instance is never due and darkens nobody.
+  // True if the instance is in the far form of a pool (scene_pool.h). Then it is never due, and darkens no
+  // other instance.
   bool is_far = false;
   std::uint64_t frame = 0;  // Scene::frame in which the lists were made; 0: never
 };
 
-// What is known about the last evaluation on the CPU; InstanceParts has its values.
+// Information about the last evaluation on the CPU. InstanceParts holds the computed values.
 struct InstanceResult {
   std::uint64_t transformed_revision = 0;  // pose_revision for which the spheres in `arrays` were computed
   std::uint64_t coarse_revision = 0;       // pose_revision of the coarse spheres
@@ -199,8 +200,8 @@ struct InstanceCasters {
 struct InstanceParts {
   explicit InstanceParts(Memory* memory) : bones(memory), uneven(memory), casters(memory) {}
 
-  Vector<Mat3x4> bones;  // rest space to world, one for each bone of the model; none if the pool lends them
-  UnevenBones uneven;    // of the current pose
+  Vector<Mat3x4> bones;  // rest space to world, one for each bone; empty in parts that the pool lends
+  UnevenBones uneven;    // the projected bones of the current pose
   InstanceArrays arrays;
   Receiver receiver;  // made from the surface positions of the key points; only valid if casters may be
                       // grouped
@@ -221,7 +222,7 @@ struct Instance {
   InstanceResult result;
   Box<InstanceParts> parts;
 
-  // Read a part. Without parts, they return an empty one.
+  // These functions read a member of `parts`. If the instance has no parts, the result is empty.
   const Vector<Mat3x4>& bones() const { return read_parts().bones; }
   const UnevenBones& uneven() const { return read_parts().uneven; }
   const InstanceArrays& arrays() const { return read_parts().arrays; }
@@ -255,13 +256,13 @@ struct SceneSettings {
 struct ScenePool {
   explicit ScenePool(Memory* memory) : spare(memory) {}
 
-  std::uint32_t places = 0;  // for the instances of each model; 0: the scene has no pool
-  float distance = 0;        // metres from the camera
+  std::uint32_t places = 0;  // number of places for each model's instances; 0: the scene has no pool
+  float distance = 0;        // metres from the camera, up to which instances get a place
   Vector<Box<InstanceParts>> spare;
-  std::uint32_t made = 0;  // parts, spare or lent
-  // Scene::structure_revision for which there are enough parts.
+  std::uint32_t made = 0;  // number of parts that exist, spare or lent
+  // Scene::structure_revision for which enough parts were made.
   std::uint64_t reserved_revision = 0;
-  std::uint32_t generation = 0;  // of the last change of an instance's view
+  std::uint32_t generation = 0;  // incremented when the place of an instance changes
   bool is_used() const { return places > 0; }
 };
 
@@ -270,7 +271,7 @@ struct Scene {
   Scene(const SceneSettings& scene_settings, const Parallel& host_parallel, Memory* scene_memory);
 
   SceneSettings settings;
-  const ShadowKernels* kernels;  // of settings.isa
+  const ShadowKernels* kernels;  // for settings.isa
   Parallel parallel;
   Memory* memory;
 
@@ -297,7 +298,7 @@ struct Scene {
   // False while only shaders update the scene. Then the instances have no InstanceArrays, and their lights
   // have no InstanceLight::storage.
   bool has_arrays = true;
-  // True after the first update on the CPU. Then the instances keep their arrays, because the host reads its
+  // True after the first update on the CPU. Then the instances keep their arrays, because the host reads the
   // results from them.
   bool was_updated_on_cpu = false;
 

@@ -22,12 +22,12 @@ void decode_late_bones(Instance& instance) noexcept;
 // Returns one bone without decoding the others.
 Mat3x4 bone_of(const Instance& instance, std::size_t bone) noexcept;
 
-// The current pose has no projected bone.
+// Records that no bone of the current pose was projected.
 inline void forget_uneven(Instance& instance) noexcept {
   if (instance.parts) std::fill(instance.parts->uneven.begin(), instance.parts->uneven.end(), false);
 }
 
-// The host sets the pose of the instance from now on.
+// Ends the clip. From now on, the host sets the pose of the instance.
 inline void leave_clip(Instance& instance) noexcept {
   instance.input.clip.clips = {};
   instance.input.clip.is_late = false;

@@ -55,7 +55,7 @@ Vector<PoolShare> pool_shares(const Scene& scene, Memory* memory) {
   return shares;
 }
 
-// The pool never gives parts back, so that no update has to make them again.
+// The pool never frees its parts, so that no update has to make them again.
 void reserve_parts(Scene& scene) {
   ScenePool& pool = scene.pool;
   if (!pool.is_used() || pool.reserved_revision == scene.structure_revision) return;

@@ -1,7 +1,7 @@
-// A pool for crowds on the GPU. An instance near the camera gets a place of the pool: parts on the CPU
-// (InstanceParts) and arrays on the GPU. Every other instance is in the far form: it has only its settings
-// and its pose, nobody computes its AO, and it darkens nobody. The tier that evaluates the scene chooses who
-// is near (sdk/src/gl/character/compute_pool.cpp).
+// A pool for crowds on the GPU. An instance near the camera gets a place in the pool: parts on the CPU
+// (InstanceParts) and arrays on the GPU. All other instances are in the far form: Nook stores only their
+// settings and pose and does not compute their AO, and they darken no other instance.
+// sdk/src/gl/character/compute_pool.cpp chooses the near instances.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace nook {
 // Throws Failure unless the scene is empty, except that the distance may change at any time.
 void set_pool(Scene& scene, std::uint32_t places, float distance, std::uint32_t instances);
 
-// Throws Failure(NOOK_ERROR_UNSUPPORTED) if the scene has a pool, which `reason` does not allow.
+// Throws Failure(NOOK_ERROR_UNSUPPORTED) if the scene has a pool. `reason` is the end of the message.
 void need_no_pool(const Scene& scene, const char* reason);
 
 // The places that the instances of a model share.
@@ -29,8 +29,8 @@ Vector<PoolShare> pool_shares(const Scene& scene, Memory* memory);
 void reserve_parts(Scene& scene);
 // Lends parts of the pool to an instance that has none. Does not allocate.
 void lend_parts(Scene& scene, Instance& instance) noexcept;
-// Takes back the parts that the pool lent to an instance. Parts with bones stay, because the host made them
-// necessary.
+// Takes back the parts that the pool lent to an instance. Parts with bones stay, because the host poses this
+// instance on the CPU.
 void return_parts(Scene& scene, Instance& instance) noexcept;
 // Gives an instance parts with bones, so that the CPU can pose it. Throws std::bad_alloc.
 void need_own_parts(Scene& scene, Instance& instance);

@@ -26,7 +26,7 @@ nook_scene_instance_info describe_instance(const Scene& scene, const Instance& i
 // sphere_count and key_point_count return the number of shapes at the instance's level.
 std::uint32_t sphere_count(const Instance& instance) noexcept;
 std::uint32_t key_point_count(const Instance& instance) noexcept;
-// Returns the number of casters of the instance's last update that are still in the scene.
+// Returns how many casters of the instance's last update are still in the scene.
 std::uint32_t link_count(const Scene& scene, const Instance& instance) noexcept;
 
 // `out` must have room for the number of elements that the functions above return.

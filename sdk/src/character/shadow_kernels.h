@@ -27,8 +27,8 @@ constexpr std::uint32_t padded_key_points(std::uint32_t count) {
 // The minimum radius of a sphere, 1 micrometre. Smaller spheres get this radius, so that squared distances in
 // units of the radius stay finite.
 inline constexpr float min_sphere_radius = float(NOOK_MIN_SPHERE_RADIUS);
-// Coordinates up to this many metres from the origin give finite results. Float precision becomes useless
-// long before that.
+// Coordinates up to this many metres from the origin give finite results. Float precision becomes useless at
+// much smaller distances.
 inline constexpr float max_coordinate = 1e9f;
 constexpr float inverse_sphere_radius(float radius) {
   return 1 / (radius > min_sphere_radius ? radius : min_sphere_radius);
@@ -94,9 +94,9 @@ struct RestKeyPointView {
   std::uint32_t padded_count = 0;
 };
 
-// The posed nodes and spheres of a tree. World space, metres. Each array holds the nodes first, then the
-// spheres. The values have the form that shadow_nook_of_mass needs, which is the term of the default kernel
-// with gamma 1.
+// The posed nodes and spheres of a tree, in world space and in metres. Each array holds the nodes first, then
+// the spheres. The values have the form that shadow_nook_of_mass needs, which is the term of the default
+// kernel with gamma 1.
 struct PosedSphereTree {
   static constexpr std::uint32_t max_spheres = 256, max_masses = 512;  // there is one node less than there
                                                                        // are spheres

@@ -15,7 +15,7 @@ struct Group {
   float total() const { return moment.x + moment.y + moment.z; }
 };
 
-// A sphere has at least this mass, so that spheres with weight 0 are split as well.
+// A sphere has at least this mass, so that groups of spheres with weight 0 can be split too.
 constexpr float least_mass = 1e-12f;
 constexpr float least_squared_distance = 1e-6f;  // for a body of scale 1; keeps quotients finite
 

@@ -67,7 +67,7 @@ Vector<SphereTreeNode> nodes_of(const CharacterModel& model, Spheres all, Memory
   return nodes;
 }
 
-// Sums over the spheres of a node. For a leaf, the values of its single sphere.
+// Sums over the spheres of a node. For a leaf, these are the values of its single sphere.
 struct Moments {
   float mass = 0;    // square metres: the sum of squared radii
   Vec3 centre;       // weighted by mass
@@ -104,8 +104,8 @@ constexpr float softness_of_variance = 0.21f;
 // error of 1.2 * spread / d^4. It equals `error` at the squared distance sqrt(1.2 * spread / error).
 //
 // Two lower limits apply to the reach. First, at distances below three standard deviations, the series is not
-// valid. Second, closer than the farthest sphere, a key point may be next to a single sphere and fully in its
-// shadow. This sphere may be too small to affect the spread.
+// valid. Second, a key point that is closer than the farthest sphere may lie fully in the shadow of one
+// sphere. This sphere may be too small to affect the spread.
 void put_node(const Moments& m, std::uint32_t n, float inverse, float inverse_error, PosedSphereTree& out) {
   const float variance = m.spread * inverse, radius_squared = m.fourth * inverse;
   put_mass(m, n, radius_squared + softness_of_variance * variance, radius_squared, out);

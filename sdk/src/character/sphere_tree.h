@@ -33,9 +33,9 @@ class SphereTree {
   AlignedArray<SphereTreeNode> nodes_;
 };
 
-// Merges the posed spheres into the nodes of the tree, and sets the reach of each node. Farther away than its
-// reach, a node changes the shadow by less than a fixed multiple of `error`. This is an estimate, not a
-// strict bound. `error` is a difference in AO.
+// Merges the posed spheres into the nodes of the tree, and sets the reach of each node. For key points beyond
+// the reach, using the node changes the shadow by less than a fixed multiple of `error`. This is an estimate,
+// not a strict bound. `error` is a difference in AO.
 SphereTreeView pose_tree(const SphereTree& tree, const SphereSoa& spheres, float error, PosedSphereTree& out);
 
 }  // namespace nook

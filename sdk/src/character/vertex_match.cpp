@@ -121,8 +121,8 @@ void drop_other_sides(Fits& fits, bool has_face, const Fit* but) {
   const Candidate* const kept = but ? but->candidate : nullptr;
   float best = -1;
   for (const Fit& fit : fits) best = std::max(best, fit.side);
-  // If even the best candidate faces another side than the triangles of the vertex, the sides cannot choose
-  // between the candidates, and are not used.
+  // If even the best candidate faces another side than the triangles of the vertex, the sides do not help to
+  // choose and are ignored.
   if (has_face && best < other_side) return;
   drop(fits, [&](const Fit& fit) { return fit.side < best - other_side && fit.candidate != kept; });
 }
@@ -133,8 +133,9 @@ void set_weights(Fits& fits, const BoneWeights& bones) {
     if (fit.candidate->weights) fit.weights = weight_difference(bones, *fit.candidate->weights);
 }
 
-// If the weights of some candidate fit within `limit`, drops the candidates with other weights. If none fits,
-// drops nothing: the host may store its weights with fewer bits, so that they differ from all candidates.
+// If the weights of at least one candidate fit within `limit`, drops the candidates with other weights. If
+// none fits, drops nothing: the host may store its weights with fewer bits, so that they differ from all
+// candidates.
 void drop_other_weights(Fits& fits, float limit) {
   float best = INFINITY;
   for (const Fit& fit : fits)

@@ -1,10 +1,10 @@
-# cmake -DNETWORK=file.nook -DOUTPUT=file.cpp -P embed_network.cmake
-# Turns a trained network into one C++ source, so that engines need no file.
+# cmake -DNETWORK=file.nook -DOUTPUT=file.cpp -P embed_network.cmake Turns a trained network into a C++ source
+# file, so that engines need not ship the network as a file.
 cmake_minimum_required(VERSION 3.25)
 
 file(READ "${NETWORK}" hex HEX)
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "std::byte{0x\\1}," bytes "${hex}")
-# Lines of a length that every tool reads.
+# Break the array into short lines, because some tools cannot read very long lines.
 string(REPEAT "std::byte{0x..}," 8 line)
 string(REGEX REPLACE "(${line})" "\\1\n" bytes "${bytes}")
 file(WRITE "${OUTPUT}"

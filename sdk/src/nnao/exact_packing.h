@@ -1,5 +1,5 @@
-// Packs an array of floats losslessly. Of a few number formats, it chooses the smallest one in which every
-// value is exact. Texels then take few bits, and unpacking returns bit-identical floats.
+// Packs an array of floats losslessly, in the smallest of a few number formats that represents every value
+// exactly. Texels then take few bits, and unpacking returns bit-identical floats.
 #pragma once
 
 #include <cstdint>

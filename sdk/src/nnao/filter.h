@@ -17,9 +17,9 @@ struct Neighbours {
   // the neighbour's depth (orthographic: not divided). On a plane, the slopes on both sides of a pixel are
   // equal, because 1 / depth (orthographic: depth) is linear on the screen.
   std::array<float, 4> slope{};
-  // 1 if the neighbour is on the same surface; 0 at an edge or at the border of the screen. A pixel that has
-  // hardly any connected neighbour is connected a little to all that have a surface. Otherwise nothing would
-  // remove its noise, and thin gaps would be rows of dots.
+  // 1 if the neighbour is on the same surface; 0 at an edge or at the border of the screen. A pixel with
+  // hardly any connected neighbours is weakly connected to all neighbours that show a surface. Otherwise its
+  // noise would remain, and thin gaps would look like rows of dots.
   std::array<float, 4> connected{};
 };
 
@@ -40,8 +40,8 @@ enum class FilterAxis { x, y };
 
 // Returns the range sharpness of the filter along y. AO values that differ by less than 1 / sharpness are
 // averaged with full weight. Values that differ by more than 2 / sharpness are not averaged. With fewer taps
-// AO is noisier, so the sharpness is lower. With nine taps AO is too noisy to be compared: rows that differ
-// by their noise alone would stay apart.
+// AO is noisier, so the sharpness is lower. With nine taps, AO is too noisy for this comparison: rows that
+// differ only by noise would not be averaged. So the sharpness is 0.
 constexpr float filter_range_sharpness(std::uint32_t taps) {
   return taps < 16 ? 0.0f : taps < 32 ? 5.0f : 8.0f;
 }

@@ -18,8 +18,8 @@ struct GivenRadius {
 };
 
 struct FrameRadius {
-  // The radius in metres. If the host sets the radius as a fraction of the screen, it covers the same number
-  // of pixels at every distance. Then this is endless_radius, and max_px is the radius.
+  // The radius in metres. If the host sets the radius as a fraction of the screen, the radius covers the same
+  // number of pixels at every distance. Then `metres` is endless_radius, and max_px holds the radius.
   float metres = 0;
   float max_px = 0;  // at least 1
   bool in_pixels = false;

@@ -8,8 +8,8 @@
 
 namespace nook::nnao {
 
-// The offset from which messages print a name such as "desc.fade_end". Messages about a descriptor print the
-// whole name, and messages about a recording skip "desc.".
+// Messages print a name such as "desc.fade_end" from this offset on. Messages about a descriptor print the
+// whole name. Messages about a recording skip "desc.".
 inline constexpr std::size_t name_in_desc = 0, name_in_recording = 5;
 
 // Throws Failure(NOOK_ERROR_INVALID_ARGUMENT) if a setting is out of range. Frame is a type with the members

@@ -36,8 +36,8 @@ struct PresentAo {
 TapNoise noise_of_frame(TapNoise noise, std::uint32_t frame);
 
 // Returns the approximate amplitude of the noise that the taps cause in AO. The mean of earlier frames is
-// clamped to within this difference from the pixel's current AO. With a larger value, AO would flicker less,
-// but dark lines that are one pixel wide would be lost.
+// clamped so that it differs from the pixel's current AO by at most this value. With a larger value, AO would
+// flicker less, but dark lines that are one pixel wide would be lost.
 constexpr float noise_reach(std::uint32_t taps) {
   return taps < 16 ? 0.2f : taps < 32 ? 0.12f : 0.08f;
 }

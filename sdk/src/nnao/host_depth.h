@@ -39,7 +39,7 @@ struct DepthDecode {
   float x = 0, y = 1, z = 1, w = 0;
   float log_rate = 0;
   float far_stored = 1e30f;  // stored values from this limit on are not surfaces
-  float far_sign = 1;        // 1: stored values grow with distance; -1: they fall
+  float far_sign = 1;        // 1: stored values increase with distance; -1: they decrease
   float slope_x = 0, slope_y = 0;
 };
 DepthDecode depth_decode(const DepthSource& source);

@@ -86,11 +86,11 @@ struct ThresholdDense {
 // mean of the `direction` units over all directions. The gate of `join` is dot(n, o) and the distance of the
 // pixel from the border of the screen in radii, at most 1. AO is
 //   1 - min(-dot(out, join), bound),
-// For each direction, take the greatest max(s w, 0) of its taps. `bound` is NOOK_HORIZON_BOUND times the mean
-// of these values over all directions. So the AO of a pixel is 1 unless some tap is both near the pixel and
-// above its plane. Surfaces far behind a silhouette do not darken the pixel. The layer `bent` has the same
-// input and gate as `direction`, and two outputs (p, q) for each direction. The bent normal is the
-// cosine-weighted mean of the open directions, and points along
+// where `bound` is NOOK_HORIZON_BOUND times the mean, over all directions, of the greatest max(s w, 0) of a
+// direction's taps. So the AO of a pixel is 1 unless some tap is both near the pixel and above its plane.
+// Surfaces far behind a silhouette do not darken the pixel. The layer `bent` has the same input and gate as
+// `direction`, and two outputs (p, q) for each direction. The bent normal is the cosine-weighted mean of the
+// open directions, and points along
 //   n + mean over directions of (p t + q o).
 // The tap layer has thresholds; the other layers have no bias. If every tap lies below the pixel's plane or
 // only slightly above it, all units are 0 and AO is 1. So a plane is fully open from every viewing angle, up

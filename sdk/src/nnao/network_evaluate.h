@@ -14,7 +14,7 @@
 
 namespace nook::nnao {
 
-// The mapping from pixels to view space. At depth w = -z, a perspective has
+// The mapping from pixels to view space. At depth w = -z, a perspective projection has
 //   x = (x_scale px + x_offset) w, y = (y_scale py + y_offset) w,
 // and an orthographic projection has the same equations without the factor w. px and py are pixel
 // coordinates; the centre of pixel (0, 0) is at (0.5, 0.5).

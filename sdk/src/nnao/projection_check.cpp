@@ -145,8 +145,8 @@ const char* clip_name(ClipRange clip) {
                                         : "NOOK_CLIP_SPACE_NEGATIVE_ONE_TO_ONE";
 }
 
-// Reversed depth shows which clip range the projection uses. With the wrong clip range, one end of the range
-// lies behind the camera, or the far plane is only twice as far away as the near plane.
+// If depth is reversed, the matrix shows which clip range it was made for. With the wrong clip range, one end
+// of the range lies behind the camera, or the far plane is only twice as far away as the near plane.
 void check_perspective_depth(const Matrix& m, ClipRange clip) {
   const bool zero_to_one = clip == ClipRange::zero_to_one;
   const ClipRange other = zero_to_one ? ClipRange::negative_one_to_one : ClipRange::zero_to_one;

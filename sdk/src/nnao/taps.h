@@ -64,7 +64,7 @@ inline constexpr std::uint32_t default_taps = 9, best_taps = 32;
 struct TapGrid {
   std::uint32_t directions = 0, steps = 0;
 };
-// 9 = 3 x 3, 16 = 4 x 4, 32 = 8 x 4, 64 = 8 x 8, 128 = 16 x 8, 256 = 16 x 16; empty for other counts.
+// Divides taps into directions x steps. Returns an empty grid for other counts than these.
 constexpr TapGrid horizon_grid(std::uint32_t taps) {
   switch (taps) {
     case 9:

@@ -193,19 +193,19 @@ class Fit {
   std::uint32_t padded_;
   bool whitens_ = false;
   double prior_weight_ = 0;    // weight of a seed
-  std::uint32_t waiting_ = 0;  // samples that wait until a chunk is full
-  std::uint32_t open_ = 0;     // samples in the current block so far
-  double closed_weight_ = 0;   // of the samples before the block
+  std::uint32_t waiting_ = 0;  // number of samples that wait until a chunk is full
+  std::uint32_t open_ = 0;     // number of samples in the current block so far
+  double closed_weight_ = 0;   // weight of the samples before the block
   LobeSoa lobes_;
-  RunningView running_;  // without coefficients, only its constants
+  RunningView running_;  // only the constants, without the coefficients
   const float* whitening_ = nullptr;
-  AlignedArray<RecentSamples> recent_;   // one
-  AlignedArray<SampleColumns> samples_;  // one: the samples that wait
-  AlignedArray<float> floats_;           // what lobes_, running_ and whitening_ point to
+  AlignedArray<RecentSamples> recent_;   // one element
+  AlignedArray<SampleColumns> samples_;  // one element: the waiting samples
+  AlignedArray<float> floats_;           // lobes_, running_ and whitening_ point into this array
   AlignedArray<float> values_;           // the values of the functions for a chunk of samples
-  AlignedArray<double> gram_;            // of the domain, count x count
-  AlignedArray<double> factor_;          // its Cholesky factor
-  AlignedArray<double> row_sum_;         // of gram_; the naive form's denominators
+  AlignedArray<double> gram_;            // Gram matrix over the domain, count x count
+  AlignedArray<double> factor_;          // Cholesky factor of gram_
+  AlignedArray<double> row_sum_;         // row sums of gram_: the denominators of the naive form
   AlignedArray<double> state_;
   AlignedArray<double> spare_;    // a copy of the state, for reading
   AlignedArray<double> scratch_;  // for solving
@@ -215,10 +215,10 @@ class Fit {
 // the sums of the fit. A product with this matrix then computes them.
 
 // Returns a matrix of basis.count rows and basis.count + band_functions columns. Row i computes coefficient
-// i, as the method `moments` does. Multiply the matrix by a vector of integrals over the sphere. First come
-// the integrals of the light times each function, then the integrals of the light times each harmonic of
-// bands 0 to 2. Without the constraint, the columns of the harmonics are 0. Only for Gaussians over the
-// sphere.
+// i, as the method `moments` does. Multiply the matrix by a vector of integrals over the sphere. The vector
+// holds first the integrals of the light times each function, then the integrals of the light times each
+// harmonic of bands 0 to 2. Without the constraint, the columns of the harmonics are 0. Only for Gaussians
+// over the sphere.
 Vector<double> solution_map(const Basis& basis, Constraint constraint, Memory* memory = default_memory());
 
 }  // namespace nook::probe

@@ -8,9 +8,9 @@
 namespace nook::probe {
 namespace {
 
-// The coefficients before a block have at least the weight of one sample, and at least this fraction of the
-// total weight. At the start, the coefficients are 0 or come from only a few samples. The minimum weight
-// prevents large values in the first solutions.
+// The coefficients before a block have at least the weight of one sample (least_before), and at least the
+// fraction least_share_before of the total weight. At the start, the coefficients are 0 or come from only a
+// few samples. The minimum weight prevents large values in the first solutions.
 constexpr double least_before = 1;
 constexpr double least_share_before = 1.0 / 512;
 

@@ -3,7 +3,7 @@
 // Each constant is the smallest float above a limit, because the limit itself is allowed. A value is accepted
 // if it is less than the constant. This comparison is false for NaN, so NaN is rejected too.
 constexpr float above_max_sample = 1.00000006e18f;    // radiance and weight: sums of squares stay finite
-constexpr float above_length_error = 2.00000033e-3f;  // of the squared length of a direction
+constexpr float above_length_error = 2.00000033e-3f;  // error of a direction's squared length
 
 // Converts records of three floats to three columns. Reads one float beyond the last record.
 void split_records(const float* records, std::uint32_t count, float* x, float* y, float* z) {

@@ -33,7 +33,7 @@ constexpr std::uint32_t block_samples = 4 * sample_chunk;
 
 }  // namespace
 
-// A path tracer passes one sample per call, so the path for few samples is checked first.
+// A path tracer passes one sample per call, so the case of few samples comes first.
 void Fit::add_samples(const float* directions, const float* radiance, const float* weights,
                       std::size_t count) {
   RecentSamples& recent = recent_[0];

@@ -82,8 +82,8 @@ void Fit::solve_moments(const Gathered& gathered, double* b) {
 
 // Computes the Gram matrix of the samples and its Cholesky factor. With fewer samples than functions, or with
 // few different directions, this matrix is singular, apart from rounding errors. Then a larger fraction of
-// the true matrix is added. Of all coefficients that match the samples exactly, the solution is then close to
-// the smallest ones.
+// the true matrix is added, so that the solution is close to the smallest coefficients that match the
+// samples.
 void Fit::factor_samples(const Gathered& gathered, double scale, double* gram, double* factor) const {
   const std::uint32_t n = basis_.count;
   const auto factor_with = [&](double prior) {

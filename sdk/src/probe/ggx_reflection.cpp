@@ -39,7 +39,7 @@ constexpr double pair_across_k[] = {NOOK_GGX_PAIR_ACROSS};
 constexpr double pair_along_k[] = {NOOK_GGX_PAIR_ALONG};
 constexpr double pair_sharpness_k[] = {NOOK_GGX_PAIR_SHARPNESS};
 
-// Returns the square root of the alpha with which the isotropic form replaces both widths.
+// Returns the square root of the alpha that the isotropic form uses instead of both widths.
 float mean_roughness(const Surface& surface) {
   return std::sqrt(std::sqrt(surface.alpha_x * surface.alpha_y));
 }
@@ -84,14 +84,15 @@ SurfaceView view_of(const Surface& surface) {
 }
 
 float directional_albedo(const SurfaceView& view, const Surface& surface) {
-  // Computes the albedo of a surface that reflects all light. It uses the isotropic width with the same loss
-  // of light by masking between the slopes.
+  // Computes the albedo of a surface that reflects all light. It uses the isotropic width for which masking
+  // between the slopes removes the same amount of light.
   const float mean2 = 0.5f * (view.alpha2_in_plane + view.alpha2_across);
   const float away = 1 - view.facing;
   const float alpha2 = mean2 - 0.5f * away * away * away * (view.alpha2_in_plane - mean2);
   const float whole = std::clamp(
       polynomial<4>(albedo_k, view.openness, std::sqrt(std::clamp(alpha2, 0.0f, 1.0f))), 0.0f, 1.0f);
-  // Evaluates Fresnel at the cosine between normal and view for which it equals its mean over the normals.
+  // Evaluates the Fresnel term at the cosine between normal and view at which it equals its mean over the
+  // normals.
   const float rho = view.roughness_in_plane;
   const float cosine = view.facing + rho * polynomial<4>(fresnel_k, std::sqrt(view.facing), rho);
   const float off = std::clamp(1 - cosine, 0.0f, 1.0f), off2 = off * off;

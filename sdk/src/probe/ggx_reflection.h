@@ -38,8 +38,7 @@ struct SurfaceView {
   float alpha2_across;       // squared width of slopes across the plane
   float openness;            // facing / sqrt(facing^2 + (slopes towards the eye)^2); 0 is fully masked, 1 is
                              // open
-  float roughness_in_plane;  // the square root of alpha, for the isotropic alpha that tilts normals equally
-                             // far
+  float roughness_in_plane;  // the square root of the isotropic alpha that tilts normals equally far
 };
 SurfaceView view_of(const Surface& surface);
 

@@ -75,7 +75,7 @@ Vec3 irradiance(const Basis& basis, std::span<const Vec3> coefficients, Irradian
 
 namespace {
 
-// Returns a surface with equal widths, with which the isotropic form replaces this one.
+// Returns a surface with equal widths, which the isotropic form uses instead of this one.
 Surface rounded(Surface surface) {
   surface.alpha_x = surface.alpha_y = std::sqrt(surface.alpha_x * surface.alpha_y);
   return surface;

@@ -98,7 +98,7 @@ std::uint64_t most_list_texels(const TileGrid& grid, std::span<const TileRange> 
   for (const TileRange& r : ranges)
     if (!r.empty)
       entries += std::uint64_t{r.last_column - r.first_column + 1} * (r.last_row - r.first_row + 1);
-  // For each tile, there is one texel for its head, and at most one texel of entries that is not full.
+  // Each tile has one texel that describes its list, and at most one texel of entries that is not full.
   return 2 * std::uint64_t{grid.columns()} * grid.rows() + entries / 4;
 }
 

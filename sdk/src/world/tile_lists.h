@@ -1,6 +1,6 @@
 // For each tile of the screen, lists the bodies that may darken surfaces in the tile. The lists do not depend
-// on the depth of the surfaces. Each body has a sphere of reach, outside which it darkens nothing. The body
-// is in the lists of all tiles that this sphere covers on the screen.
+// on the depth of the surfaces. Each body has a sphere, outside which it darkens nothing. The body is in the
+// lists of all tiles that its sphere covers on the screen.
 #pragma once
 
 #include <cstdint>
@@ -33,8 +33,8 @@ struct TileRange {
 TileRange covered_tiles(const TileGrid& grid, Vec3 centre, float radius);
 
 // The shadow volume of a body in a cone of light. The shadow volume is the union of spheres along a path. The
-// centre moves from `centre` along `away`, by up to `reach`. The radius grows by `spread` metres per metre.
-// `away` is a unit vector that points away from the light.
+// centre moves from `centre` along `away`, by up to `reach`. The radius grows by `spread` metres per metre of
+// the path. `away` is a unit vector that points away from the light.
 struct Shadow {
   Vec3 away;
   float spread = 0, reach = 0;

@@ -33,7 +33,7 @@ struct WorldKernels {
   // open[i] *= the product over the casters of 1 - coverage.
   void (*open_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                           float* open);
-  // Like open_hemisphere, but also adds each caster to the terms.
+  // Like open_hemisphere, but also adds each caster to the gathered terms.
   void (*gather_hemisphere)(const PosedCaster* casters, std::uint32_t count, const PointSoa& points,
                             float* open, const GatheredSoa& gathered);
   // Writes the open share of the light for each colour channel. Pass the AO as `open`.
