@@ -42,7 +42,7 @@ Depth depth_of_spheres(const Instance& instance, const Plane& plane) {
   Mat3x4 bone;
   for (std::size_t s = 0; s < model.spheres.size(); ++s) {
     const ProxySphere& sphere = model.spheres[s];
-    // Neighbours in the list often share a bone, which a clip would have to decode again.
+    // Neighbouring spheres often share a bone. Reusing it saves decoding it from the clip again.
     if (s == 0 || sphere.bone != model.spheres[s - 1].bone) bone = bone_of(instance, sphere.bone);
     const float distance = dot(plane.normal, transform_point(bone, sphere.centre)) - plane.offset;
     depth.share_below += distance < 0 ? share : 0;
@@ -67,7 +67,8 @@ bool is_surely_above(const Instance& instance, const Plane& plane) {
 
 GroundFinding check_ground(const Instance& instance) noexcept {
   const Plane& given = instance.input.ground;
-  // Hosts hide a body with matrices that are zero. nearest_similarity gives these the scale 1e-6.
+  // Some hosts hide a body by setting its matrices to zero. nearest_similarity gives such matrices the scale
+  // 1e-6.
   const bool has_size = instance.input.largest_scale() > 2e-6f;
   if (!has_size || is_surely_above(instance, given)) return {};
   const Depth found = depth_below(instance, given);

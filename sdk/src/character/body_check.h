@@ -22,11 +22,11 @@ struct GroundFinding {
   GroundMistake mistake = GroundMistake::height;
 };
 
-// A ground is wrong if more than 5 % of the body is deeper below it than 0.3 bounding radii, which is the
-// middle of a human shin. Feet that sink in, lower steps of stairs and bodies that lie down do not reach as
-// deep. A ground is also wrong if more than 40 % of the body is below it, for example if the plane stands
-// upright in the body. If only the GPU has the bones, the centre of the bound must be deeper than 0.3 of the
-// bound's radius. The instance must have a ground.
+// A ground is wrong if more than 5 % of the body is more than 0.3 bounding radii below it. For a human, this
+// depth reaches the middle of the shin. Feet that sink in, lower steps of stairs and bodies that lie down do
+// not reach as deep. A ground is also wrong if more than 40 % of the body is below it, for example if the
+// plane stands upright in the body. If only the GPU has the bones, the centre of the bound must be deeper
+// than 0.3 of the bound's radius. The instance must have a ground.
 GroundFinding check_ground(const Instance& instance) noexcept;
 
 // Returns the radius of the posed body, divided by the radius of the rest pose in the same scale. Limbs can

@@ -51,7 +51,7 @@ struct FrameTable {
   std::uint32_t modes = 0;
   Vector<Number> mode;          // modes x rows
   Vector<std::int16_t> weight;  // frames x modes
-  Vector<float> scale;          // for each mode: the factor that the stored weight max_weight stands for
+  Vector<float> scale;          // for each mode: the weight that the stored integer max_weight stands for
 
   float frame_weight(std::size_t frame, std::size_t k) const {
     return scale[k] * (1.0f / max_weight) * float(weight[frame * modes + k]);
@@ -80,8 +80,8 @@ struct ClipSet {
   FrameTable<std::int8_t> ao;
   Vector<BoneSpan> bones;
   // For each bone, the map from rest space to the clip's space as 12 values: BoneSpan::radius times the nine
-  // elements of rotation and scale, row by row, then the position of BoneSpan::centre. Because of the factor,
-  // an error of any of the 12 values is a length in metres on the body.
+  // elements of rotation and scale, row by row, then the position of BoneSpan::centre. With this factor, an
+  // error in any of the 12 values is a length in metres on the body.
   FrameTable<std::int16_t> pose;
   String recipe;  // JSON text of the bake's settings; the runtime does not read it
 };

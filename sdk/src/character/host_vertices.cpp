@@ -10,8 +10,8 @@
 namespace nook {
 namespace {
 
-// Transforms a normal from rest space to the mesh's space. Normals are transformed by the transpose of
-// rest_from_mesh, because it is the matrix that transforms positions in the opposite direction.
+// Transforms a normal from rest space to the mesh's space. Uses the transpose of rest_from_mesh, because
+// rest_from_mesh transforms positions in the opposite direction.
 Vec3 normal_in_mesh(const Mat3x4& rest_from_mesh, Vec3 n) {
   const float* m = rest_from_mesh.m;
   return normalised({m[0] * n.x + m[4] * n.y + m[8] * n.z, m[1] * n.x + m[5] * n.y + m[9] * n.z,

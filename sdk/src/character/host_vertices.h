@@ -83,8 +83,8 @@ inline constexpr std::uint32_t no_vertex = UINT32_MAX;
 CharacterModel remapped(const CharacterModel& model, std::span<const std::uint32_t> file_vertices,
                         Memory* memory);
 
-// The vertex of a host's mesh that lies farthest from the model. It shows whether the mesh belongs to the
-// same body, such as a level of detail.
+// The vertex of a host's mesh that lies farthest from the model. It shows whether the mesh is the same body,
+// for example at another level of detail.
 
 struct FarVertex {
   std::uint32_t vertex = 0;  // index of the host vertex

@@ -3,8 +3,8 @@
 // number type F: float, double, or a SIMD vector with the same operators and the functions of
 // core/simd_scalar.h. Therefore the scalar reference and all SIMD paths use the same source code.
 //
-// Take a sphere of centre o and radius r, a key point c with unit normal u, and d = o - c. Two numbers
-// describe the sphere:
+// The sphere has the centre o and the radius r. The key point c has the unit normal u. d is o - c. Two
+// numbers describe the sphere:
 //   delta2 = |d|^2 / r^2, the squared distance in radii, and xi = dot(d, u) / r, the height of its centre
 //   above the key point's horizon in radii; |xi| <= delta.
 #pragma once
@@ -96,8 +96,9 @@ F saturated(F norm, F c) {
   return norm / fma(c, norm, F(1.0f));
 }
 
-// The share of the cosine-weighted hemisphere above a surface that a sphere covers, clipped at the horizon.
-// With h = delta and c = sqrt((h^2 - 1) / (h^2 - xi^2)), for -1 < xi < 1 < h:
+// Returns the share of a surface's cosine-weighted hemisphere that a sphere covers. The part of the sphere
+// below the horizon does not count. Let h be delta and c be sqrt((h^2 - 1) / (h^2 - xi^2)). For -1 < xi < 1 <
+// h,
 //   f = [ (xi acos(-xi c) / h - sqrt((1 - xi^2)(h^2 - 1))) / h^2 + acos(c) ] / pi.
 // If the sphere is completely above the horizon (xi >= 1), f is xi / h^3. If it is completely below (xi <=
 // -1), f is 0. On the sphere's surface, f = (1 + xi) / 2. Inside the sphere, the exact value would be 1,

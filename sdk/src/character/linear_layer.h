@@ -13,8 +13,8 @@
 
 namespace nook {
 
-// Number of vertices in a window, which is a range of the file's order. It is a multiple of all block sizes.
-// If the vertices of a window are consecutive in the file, their AO takes 4 KiB.
+// The number of vertices in a window. A window is a range of vertices in the file's order. The number is a
+// multiple of all block sizes. If the vertices of a window are consecutive in the file, their AO takes 4 KiB.
 inline constexpr std::uint32_t linear_window_vertices = 1024;
 
 // Returns all vertices in the order of their slots. All vertices of a block come from the same window of the

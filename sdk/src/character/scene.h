@@ -262,7 +262,7 @@ struct ScenePool {
   std::uint32_t made = 0;  // number of parts that exist, spare or lent
   // Scene::structure_revision for which enough parts were made.
   std::uint64_t reserved_revision = 0;
-  std::uint32_t generation = 0;  // incremented when the place of an instance changes
+  std::uint32_t generation = 0;  // incremented when the view of an instance changes
   bool is_used() const { return places > 0; }
 };
 

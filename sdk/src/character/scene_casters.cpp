@@ -177,8 +177,8 @@ void place_ground(const Scene& scene, Instance& receiver) {
 }
 
 // Decides whether the instance is due, and chooses its level. Distant instances take turns: each is evaluated
-// at least every lod_max_interval frames. An instance uses the coarsest level whose error is acceptable at
-// its distance.
+// at least once every lod_max_interval frames. An instance uses the coarsest level whose error is acceptable
+// at its distance.
 void choose_detail(const Scene& scene, std::uint32_t slot, bool has_result, Instance& instance) {
   instance.plan.level = 0;
   instance.plan.due = !instance.plan.is_far;

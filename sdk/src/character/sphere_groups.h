@@ -6,7 +6,7 @@
 // their masses has almost the same effect. cos / d^2 is the field of a dipole, which is harmonic. So the
 // error of a group is of second order in the extent of the group, and is 0 if the extent is the same in all
 // directions. The nearest part of the receiver determines the error. Therefore two bodies whose arms cross
-// use their single spheres, not groups.
+// use their single spheres instead of groups.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-# cmake -DNETWORK=file.nook -DOUTPUT=file.cpp -P embed_network.cmake Turns a trained network into a C++ source
-# file, so that engines need not ship the network as a file.
+# cmake -DNETWORK=file.nook -DOUTPUT=file.cpp -P embed_network.cmake
+# Turns a trained network into a C++ source file, so that engines need not ship the network as a file.
 cmake_minimum_required(VERSION 3.25)
 
 file(READ "${NETWORK}" hex HEX)

@@ -8,10 +8,9 @@
 
 namespace nook::nnao {
 
-// The weights of a small network with one hidden layer, which computes specular occlusion. With the cosine of
-// the cone's half angle, cos = sqrt(1 - AO), the bent normal b, the normal n, the direction to the viewer v,
-// its reflection r and the roughness, the inputs are x = (cos, dot(b, r), dot(n, v), dot(n, b), roughness),
-// and
+// The weights of a small network with one hidden layer, which computes specular occlusion. Its inputs are x =
+// (cos, dot(b, r), dot(n, v), dot(n, b), roughness). cos = sqrt(1 - AO) is the cosine of the cone's half
+// angle, b the bent normal, n the normal, v the direction to the viewer, and r its reflection. The output is
 //   hidden = out . max(weights x + bias, 0) + out_bias
 //   occlusion = clamp(lerp(1 - cos hidden, AO, roughness^4), 0, 1).
 // Roughness is perceptual: the GGX width is its square. At roughness 1, the occlusion equals the AO of the

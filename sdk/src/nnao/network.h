@@ -75,10 +75,10 @@ struct ThresholdDense {
 };
 
 // Nook's network. The taps lie along `directions` half-lines on the screen, with `steps` taps on each
-// half-line. A tap outside the screen is moved to the nearest pixel on the screen. With v = p_t - p, the
-// direction to the viewer o = -p / |p| (orthographic: +z), the elevation s = dot(v, n) / |v|, the angle c =
-// dot(v, o) / |v| and the nearness w = max(1 - |v| / 2r, 0), where |v| is at least half a pixel, a tap's
-// hidden units are the output of the layer `tap` for
+// half-line. A tap outside the screen is moved to the nearest pixel on the screen. v = p_t - p is the vector
+// to the tap, where |v| is at least half a pixel, and o = -p / |p| (orthographic: +z) is the direction to the
+// viewer. s = dot(v, n) / |v| is the elevation, c = dot(v, o) / |v| the cosine of the angle to the viewer,
+// and w = max(1 - |v| / 2r, 0) the nearness. A tap's hidden units are the output of the layer `tap` for
 //   input = (s, s c, s w, s c w).
 // The sky is treated as a surface at infinity. The input of the layer `direction` is the maximum and the mean
 // of the tap units over the steps of a direction. The gate of `direction` is (dot(n, t), dot(n, o)), where t

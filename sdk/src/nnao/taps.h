@@ -64,7 +64,7 @@ inline constexpr std::uint32_t default_taps = 9, best_taps = 32;
 struct TapGrid {
   std::uint32_t directions = 0, steps = 0;
 };
-// Divides taps into directions x steps. Returns an empty grid for other counts than these.
+// Divides the taps into directions and steps. Returns an empty grid for an unknown number of taps.
 constexpr TapGrid horizon_grid(std::uint32_t taps) {
   switch (taps) {
     case 9:

@@ -17,7 +17,7 @@ namespace nook::probe {
 void vogel_sphere(std::span<Vec3> axes);
 void vogel_hemisphere(Vec3 up, std::span<Vec3> axes);
 
-// Two unit vectors x and y. Together with a given unit vector z, they form a right-handed frame.
+// Two unit vectors that complete a given unit vector z to a right-handed frame.
 struct Frame {
   Vec3 x, y, z;
 };

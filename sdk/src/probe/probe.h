@@ -94,8 +94,8 @@ struct Grid {
 
 // A place in the grid: the cell that contains it, and the position in the cell.
 struct GridPlace {
-  std::size_t cell = 0;               // its index
-  std::array<std::size_t, 8> corner;  // the probes at its corners; x is bit 0, y bit 1, z bit 2
+  std::size_t cell = 0;               // index of the cell
+  std::array<std::size_t, 8> corner;  // the probes at the cell's corners; x is bit 0, y bit 1, z bit 2
   Vec3 in_cell;                       // in spacings from corner 0; below 0 or above 1 outside the grid
 };
 GridPlace place_in(const Grid& grid, Vec3 position_ws);

@@ -27,7 +27,7 @@ Vec3 radiance(const Basis& basis, std::span<const Vec3> coefficients, Vec3 direc
 Vec3 irradiance(const Basis& basis, std::span<const Vec3> coefficients, IrradianceForm form, Vec3 normal);
 
 // Glossy reflection of lobes. A GGX surface reflects light from many directions to the eye. The distribution
-// of these directions is approximated by lobes, too. The integrals of these lobes sum to 1. They are
+// of these directions is approximated by lobes, too. The integrals of these lobes sum to 1. The lobes are
 // multiplied by the surface's directional albedo. The integral of the product of such a lobe and a lobe of
 // the light has a closed form.
 

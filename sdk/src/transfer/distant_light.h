@@ -13,8 +13,7 @@
 namespace nook::transfer {
 
 inline constexpr std::uint32_t min_lobes = 12;
-// The largest number of lobes in the paper's Table II. The factored Gram matrix of so many lobes takes 25
-// MiB.
+// The largest number of lobes in the paper's Table II. Their factored Gram matrix takes 25 MiB.
 inline constexpr std::uint32_t max_lobes = 2562;
 
 // Returns the sharpness of the lobes. Useful factors are 0.2 to 0.5: wider lobes represent suns better, but

@@ -9,7 +9,7 @@
 namespace nook::transfer {
 namespace {
 
-// A lobe is ignored where it falls below exp(-reach) of its maximum, about 3e-7.
+// A lobe is ignored where it is below exp(-reach) times its maximum; exp(-reach) is about 3e-7.
 constexpr float reach = 15;
 
 double dot_of(const double* a, const double* b, std::size_t count) {

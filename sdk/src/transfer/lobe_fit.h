@@ -25,8 +25,8 @@ class LobeFit {
   // directions from the shape's space to the light's space.
   void fit(const CubeCells& cells, std::span<const Vec3> radiance, const Mat3x4& light_from_shape,
            std::span<float> amplitudes) const;
-  // Fits a directional light. `direction` is in the shape's space. `irradiance` is what a plane that faces
-  // the light receives.
+  // Fits a directional light. `direction` is in the shape's space. `irradiance` is the irradiance of a plane
+  // that faces the light.
   void fit_direction(Vec3 direction, Vec3 irradiance, std::span<float> amplitudes) const;
 
  private:

@@ -41,8 +41,8 @@ struct PaperTransfer {
   bool is_used() const { return light_modes > 0; }
 };
 
-// Returns the size of the four arrays in bytes, counted as in Table II of the paper:
-//   C (rank J + rank 3 R_l vertex_rank) 2 + V (2 vertex_rank + 1).
+// Returns the size of the four arrays in bytes, counted as in Table II of the paper: two bytes for each half
+// float, and one byte for each vertex's cluster.
 constexpr std::uint64_t paper_bytes(std::uint64_t vertices, std::uint64_t clusters, std::uint64_t lobes,
                                     std::uint64_t light_modes, std::uint64_t lobe_rank,
                                     std::uint64_t vertex_rank) {

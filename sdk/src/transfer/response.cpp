@@ -19,10 +19,10 @@ std::uint32_t side_of(std::uint32_t lobes) {
 std::uint32_t fine_side_of(std::uint32_t side) {
   return (side - 1) * parts + 1;
 }
-// A lobe is ignored where it falls below exp(-reach) of its maximum.
+// A lobe is ignored where it is below exp(-reach) times its maximum.
 constexpr float reach = 12;
-// A lobe below the horizon has no effect if, above the horizon, its value is everywhere below this fraction
-// of its maximum.
+// A lobe whose axis is below the horizon is ignored if all its values above the horizon are below this
+// fraction of its maximum.
 constexpr double lowest_share = 1e-4;
 
 // Inverts the equal-area map. Points outside the disc of radius sqrt(2) return the downward direction.
@@ -117,7 +117,7 @@ HemisphereCells::HemisphereCells(float sharpness, Memory* memory) : direction(me
       const float y = 2 * (float(row) + 0.5f) / float(across) - 1;
       if (x * x + y * y < 1) direction.push_back(direction_at(x, y));
     }
-  // The map scales all areas by the same factor, 2.
+  // The solid angle of a region is twice its area on the map.
   solid_angle = 2 * (2 / float(across)) * (2 / float(across));
 }
 

@@ -11,7 +11,7 @@ using transfer::VertexBlock;
 // the first-level cache, and one word has a bit for each lobe.
 inline constexpr std::uint32_t chunk = 64;
 struct alignas(64) Places {
-  float node[chunk];                 // index of the upper left one of the four nodes
+  float node[chunk];                 // index of the upper left node of the four nodes
   float right[chunk];                // distance to the right of that node, in [0, 1]
   float upper[chunk], lower[chunk];  // the lobe's share in that node's row and in the next row
 };

@@ -85,8 +85,8 @@ class ReflectedLight {
   const ReflectedBands light_;
 };
 
-// frame_at(i) returns the frame of vertex i. shares_at(i) returns its shares, or null if it is open. after(i,
-// vector) is called for each finished vector and may change it.
+// frame_at(i) returns the frame of vertex i. shares_at(i) returns its shares, or null if the vertex is open.
+// after(i, vector) is called for each finished vector and may change it.
 template <class FrameAt, class SharesAt, class After>
 void run(const Response& response, Isa isa, std::span<const float> amplitudes, std::uint32_t count,
          const VectorOutput& output, const Parallel& parallel, Memory* memory, FrameAt&& frame_at,

@@ -6,13 +6,13 @@
 // ends, sines s_u and s_v of their angular radii, and c = dot(u, v). Lambert's contour integral of this
 // region has two arcs of great circles, which touch both discs, and the outer arcs of the discs. With
 //   alpha = (s_u - c s_v) / (1 - c^2), beta = (s_v - c s_u) / (1 - c^2), gamma^2 = 1 - alpha s_u - beta s_v,
-// the great circles have the normals alpha u + beta v +- gamma w, w perpendicular to both, and the sum of the
-// four arcs, each in closed form, is the vector
+// the great circles have the normals alpha u + beta v +- gamma w, where w is perpendicular to u and v. Each
+// of the four arcs has a closed form. Their sum is the vector
 //   pi Phi = (lambda alpha + phi_u s_u^2 + gamma s beta) u + (lambda beta + phi_v s_v^2 + gamma s alpha) v,
 //   s = sqrt(1 - c^2), cos(lambda) = (c - s_u s_v) / (c_u c_v), cos(phi_u) = beta s / c_u,
 //   cos(phi_v) = alpha s / c_v, c_u = sqrt(1 - s_u^2).
-// dot(n, Phi) is the form factor, exact where the capsule is above the horizon. If one disc hides the other,
-// clamping the cosines to [-1, 1] gives the larger disc's form factor.
+// dot(n, Phi) is the form factor. It is exact if the capsule is above the horizon. If one disc hides the
+// other, clamping the cosines to [-1, 1] gives the larger disc's form factor.
 //
 // On the surface of a capsule, the region is a half-space. A point inside a capsule uses the half-space of
 // the nearest point of the surface, so that the share is continuous. If the sphere at an end of the capsule
@@ -73,8 +73,7 @@ HullFactor<F> hull_factor(F su, F sv, F spread) {
   const F inverse_pi(0.318309886f);
   const F a = fma(lambda, alpha, fma(phi_u, su * su, gamma * s * beta)) * inverse_pi;
   const F b = fma(lambda, beta, fma(phi_v, sv * sv, gamma * s * alpha)) * inverse_pi;
-  // gamma is also 0 if one disc hides the other. The difference is that then the angle between the ends is
-  // small.
+  // gamma is also 0 if one disc hides the other, but the angle between the ends is small in that case.
   const F within = select(less(one, versine), across2, zero);
   const F inverse_across = rsqrt(max(across2, F(1e-12f)));
   return {select(less(one, within), alpha * inverse_across, a),
@@ -87,9 +86,9 @@ HullFactor<F> hull_factor(F su, F sv, F spread) {
 //
 // The region is treated as the disc that has the same vector Phi: its sine is sqrt(|Phi|), and t = dot(n,
 // Phi) / |Phi|^(3/2) is the height of its centre in radii. The disc's share above the horizon is |Phi|^(3/2)
-// (t + x(t)) for |t| < 1, where x(t) = (1 - t) / 2 - w1 (1 - t^2) - w2 (1 - t^2)^2 meets x(t) - x(-t) = -t,
-// which is exact; w1 and w2 are polynomials in sqrt(1 - |Phi|), 0 on the surface and exact far away. The
-// error of this fit against the closed form of a disc is at most 0.0052, and its RMS error is 0.001.
+// (t + x(t)) for |t| < 1, where x(t) = (1 - t) / 2 - w1 (1 - t^2) - w2 (1 - t^2)^2 satisfies x(t) - x(-t) =
+// -t exactly. w1 and w2 are polynomials in sqrt(1 - |Phi|). They are 0 on the surface, and exact far away.
+// The error of this fit against the closed form of a disc is at most 0.0052, and its RMS error is 0.001.
 template <class F>
 F above_horizon(F factor, F size2, F lowest) {
   const F one(1.0f), zero(0.0f);

@@ -11,8 +11,8 @@ constexpr std::uint32_t tiles_along(std::uint32_t length_px, std::uint32_t tile_
 }
 
 // The extent of a sphere along one screen axis. The sphere appears between two angles from the camera's axis;
-// their tangents are stored. If a part of the sphere is beside or behind the camera, the extent is the whole
-// screen.
+// their tangents are stored. On a side where the sphere reaches beside or behind the camera, the extent is
+// infinite.
 struct Extent {
   float low = -INFINITY, high = INFINITY;
 };
