@@ -23,9 +23,9 @@ float height_of_bound(const Sphere& bound, const Plane& plane) {
 }
 
 // Estimates the depth from the bound. Use it for poses whose bones are only on the GPU. A body that lies on
-// the ground can have the same bound as a body that stands in the ground up to its hips. So a share is below
-// the plane only if the bound's centre is deep. A standing body reaches down to about 0.85 bounding radii of
-// its rest pose below the centre. The host may pass a larger bound.
+// the ground can have the same bound as a body that stands in the ground up to its hips. So the function
+// reports a share below the plane only if the bound's centre is deep. A standing body reaches down to about
+// 0.85 bounding radii of its rest pose below the centre. The host may pass a larger bound.
 Depth depth_of_bound(const Instance& instance, const Plane& plane) {
   const Sphere& bound = instance.input.bound;
   const float in_rest = instance.model->model.bounding_radius * instance.input.largest_scale();

@@ -5,7 +5,7 @@ namespace nook {
 Vector<Vec3> face_normals_of(const HostVertices& host, std::span<const std::uint32_t> indices,
                              Memory* memory) {
   Vector<Vec3> sum(host.count, Vec3{}, memory);
-  // `along` is twice the area of the triangles that face to the side of the normals, and `away` is twice the
+  // `along` is twice the area of the triangles that face the same way as the normals, and `away` is twice the
   // area of the other triangles. Both are equal for flat cards whose two faces have the same normals.
   double along = 0, away = 0;
   for (std::size_t t = 0; t + 2 < indices.size(); t += 3) {

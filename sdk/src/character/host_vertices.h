@@ -49,7 +49,7 @@ struct HostVertices {
 // model must have bind data.
 std::uint16_t space_of(const CharacterModel& model, std::uint32_t file_vertex);
 
-// A model vertex that possibly matches a host vertex, given in the host's space.
+// A model vertex that may match a host vertex, given in the host's space.
 struct Candidate {
   Vec3 position;
   Vec3 normal;

@@ -97,7 +97,7 @@ F saturated(F norm, F c) {
 }
 
 // Returns the share of a surface's cosine-weighted hemisphere that a sphere covers. The part of the sphere
-// below the horizon does not count. Let h be delta and c be sqrt((h^2 - 1) / (h^2 - xi^2)). For -1 < xi < 1 <
+// below the horizon does not count. Let h be delta and c be sqrt((h^2 - 1) / (h^2 - xi^2)). If -1 < xi < 1 <
 // h,
 //   f = [ (xi acos(-xi c) / h - sqrt((1 - xi^2)(h^2 - 1))) / h^2 + acos(c) ] / pi.
 // If the sphere is completely above the horizon (xi >= 1), f is xi / h^3. If it is completely below (xi <=

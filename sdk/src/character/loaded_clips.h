@@ -23,7 +23,7 @@ struct FrameMix {
 // duration, so its last frame should equal its first. Otherwise the time is clamped to the clip.
 FrameMix frame_mix(const ClipRange& clip, double time_s, bool is_looping) noexcept;
 
-// Where the body is in a frame, in the clip's space.
+// The position and size of the body in a frame, in the clip's space.
 struct FrameBound {
   PoseBound bound;
   // For each bone, take the centre of its bounding sphere (LoadedModel::BoneBound). In the middle between

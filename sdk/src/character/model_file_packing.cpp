@@ -58,8 +58,8 @@ std::array<std::uint32_t, KeyPoint::max_bones> weight_codes(
     remainder[i] = weight[i] * 256 - static_cast<float>(code[i]);
     left -= static_cast<int>(code[i]);
   }
-  // The weights sum to 1 except for rounding, so at most n steps are left to distribute. If the codes sum to
-  // one step too many, it is subtracted from the largest weight.
+  // The weights sum to 1 except for rounding, so at most n steps are left to distribute. If the sum of the
+  // codes is one step too large, one step is subtracted from the largest weight.
   for (; left > 0; --left) {
     const auto most = std::max_element(remainder.begin(), remainder.end()) - remainder.begin();
     ++code[most];

@@ -171,8 +171,8 @@ std::int64_t fitting_transform(const Check& check, const RestVertex& vertex, con
   return fitting;
 }
 
-// A vertex at a wrong place, which follows almost only one bone. With another bone's transform, it would be
-// at the right place.
+// A vertex that is at a wrong place and follows almost only one bone. With another bone's transform, it would
+// be at the right place.
 struct Misplaced {
   std::uint32_t bone = 0;
   std::int64_t transform = -1;

@@ -195,7 +195,7 @@ struct InstanceCasters {
                                      // 0: never posed
 };
 
-// The large part of an instance. In a scene with a pool, an instance has it only while it is near, or after
+// The large data of an instance. In a scene with a pool, an instance has it only while it is near, or after
 // the host posed it on the CPU (scene_pool.h).
 struct InstanceParts {
   explicit InstanceParts(Memory* memory) : bones(memory), uneven(memory), casters(memory) {}
@@ -257,7 +257,7 @@ struct ScenePool {
   explicit ScenePool(Memory* memory) : spare(memory) {}
 
   std::uint32_t places = 0;  // number of places for each model's instances; 0: the scene has no pool
-  float distance = 0;        // metres from the camera, up to which instances get a place
+  float distance = 0;        // metres; instances up to this distance from the camera can get a place
   Vector<Box<InstanceParts>> spare;
   std::uint32_t made = 0;  // number of parts that exist, spare or lent
   // Scene::structure_revision for which enough parts were made.

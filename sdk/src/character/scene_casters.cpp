@@ -71,8 +71,8 @@ float term_bound(KernelForm form, float delta) {
   return 1 / (delta * delta);
 }
 
-// Returns an upper bound for a single sphere. A sphere increases the norm by at most its term, and AO changes
-// by at most max_alpha_sum times the term.
+// Returns an upper bound for the AO that a single sphere takes. A sphere increases the norm by at most its
+// term, and AO changes by at most max_alpha_sum times the term.
 float paper_bound(const LoadedModel& receiver, float radius, float gap) {
   return gap > radius ? receiver.max_alpha_sum * term_bound(receiver.model.kernel.form, gap / radius)
                       : INFINITY;
@@ -83,8 +83,9 @@ const Vector<ProxySphere>& spheres_at(const CharacterModel& model, std::uint32_t
   return l == 0 ? model.spheres : model.levels[l - 1].spheres;
 }
 
-// Returns an upper bound for all spheres of a caster. By Minkowski's inequality, the norm increases by at
-// most the norm of the new terms. The shadow increases by at most as much as the norm.
+// Returns an upper bound for the AO that all spheres of a caster take together. By Minkowski's inequality,
+// the norm increases by at most the norm of the new terms. The shadow increases by at most as much as the
+// norm.
 float paper_bound(const LoadedModel& receiver, std::uint32_t receiver_level, const Instance& caster,
                   float gap) {
   const Kernel& kernel = receiver.model.kernel;

@@ -11,7 +11,7 @@
 namespace nook {
 
 // Gives a scene a pool, which then replaces the arrays of all instances. Reserves memory for `instances`.
-// Throws Failure unless the scene is empty, except that the distance may change at any time.
+// Throws Failure unless the scene is empty. If only the distance changes, the scene need not be empty.
 void set_pool(Scene& scene, std::uint32_t places, float distance, std::uint32_t instances);
 
 // Throws Failure(NOOK_ERROR_UNSUPPORTED) if the scene has a pool. `reason` is the end of the message.

@@ -26,8 +26,8 @@ struct FrameRadius {
   float min_px = 0;  // at most max_px; 0: none
 };
 
-// Larger than every radius in metres that a host can set. If it is converted to pixels, the result may be
-// infinite.
+// This value is larger than every radius in metres that a host can set. If it is converted to pixels, the
+// result may be infinite.
 inline constexpr float endless_radius = 1e30f;
 
 inline FrameRadius frame_radius(const GivenRadius& given, float height_px) {

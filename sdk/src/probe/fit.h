@@ -51,7 +51,7 @@ struct FitSettings {
   FitMethod method = FitMethod::least_squares;
   Step step = Step::fast;  // for all running averages except the original form
   Constraint constraint = Constraint::bands;
-  Denominator denominator = Denominator::lockstep;  // of the plain step
+  Denominator denominator = Denominator::lockstep;  // only for the plain step
   // If not 0, the weight of sample k is multiplied by 1 - exp(-k / growing_samples).
   float growing_samples = 0;
   nook_isa isa = NOOK_ISA_AUTO;
@@ -162,8 +162,9 @@ class Fit {
   void take_recent();  // moves the latest samples to samples_
   void take_group(const float* directions, const float* radiance, const float* weights, std::uint32_t count);
   void keep(const SampleFaults& faults, std::uint32_t count);
-  void flush();                              // adds the waiting samples to the state
-  Gathered present(const Room& room) const;  // the state including waiting samples, with blocks closed
+  void flush();  // adds the waiting samples to the state
+  Gathered present(
+      const Room& room) const;  // the state after adding the waiting samples and closing the block
   SampleCounts counts_with_waiting() const;
   void advance(SampleCounts& counts, std::uint32_t count) const;
   void absorb(std::uint32_t count, float* values, State into) const;
@@ -207,8 +208,8 @@ class Fit {
   AlignedArray<double> factor_;          // Cholesky factor of gram_
   AlignedArray<double> row_sum_;         // row sums of gram_: the denominators of the naive form
   AlignedArray<double> state_;
-  AlignedArray<double> spare_;    // a copy of the state, for reading
-  AlignedArray<double> scratch_;  // for solving
+  AlignedArray<double> spare_;    // a copy of the state, used while coefficients are read
+  AlignedArray<double> scratch_;  // memory for the solvers
 };
 
 // The solution of a fit as a matrix. If the exact Gram matrix is used, the coefficients depend linearly on

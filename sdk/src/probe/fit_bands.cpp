@@ -62,9 +62,8 @@ void meet_bands(const LightBands& bands, const double* factor, std::uint32_t cou
       system[j * rows + other] = sum;
     }
   }
-  if (cholesky(system.data(), rows, 0) < rows)
-    return;  // if all functions are nearly 0, no digit of the
-             // result would be valid
+  // If all functions are nearly 0, no digit of the result would be valid.
+  if (cholesky(system.data(), rows, 0) < rows) return;
   for (std::size_t channel = 0; channel < 3; ++channel)
     cholesky_solve(system.data(), rows, y.data() + channel, 3);
   for (std::size_t j = 0; j < rows; ++j)

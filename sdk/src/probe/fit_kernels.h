@@ -114,8 +114,8 @@ struct FitKernels {
 
   // The next two functions take one step of a running average for each sample in turn. B_i is the value of
   // function i, v the sample's radiance, R the value of the fit before the step, and w the sample's weight. W
-  // is `total`: the sum of all weights including w, but for the first samples at least the number of samples.
-  // The plain step is b_i += w / W (B_i (v - R + b_i B_i) / D_i - b_i). D_i is true_square. With
+  // is `total`: the sum of all weights up to and including w. For the first samples, W is at least the number
+  // of samples. The plain step is b_i += w / W (B_i (v - R + b_i B_i) / D_i - b_i). D_i is true_square. With
   // Denominator::lockstep, D_i is the larger of true_square and `square`.
   void (*step_plain)(const RunningView& fit, const SampleColumns& samples, const float* total,
                      std::uint32_t count, const float* values, bool lockstep, bool non_negative);

@@ -77,7 +77,8 @@ SurfaceView view_of(const Surface& surface) {
   view.stretched_x = surface.alpha_x * x / std::sqrt(view.alpha2_in_plane);
   view.stretched_y = surface.alpha_y * y / std::sqrt(view.alpha2_in_plane);
   view.openness = view.facing / std::sqrt(view.facing * view.facing + sine2 * view.alpha2_in_plane);
-  // If the slopes across the plane of incidence are wide, fewer normals are tilted far within the plane.
+  // If the width of the slopes across the plane of incidence is large, fewer normals are tilted far within
+  // the plane.
   const float alpha2 = view.alpha2_in_plane * std::pow(view.alpha2_in_plane / view.alpha2_across, 0.1f);
   view.roughness_in_plane = std::sqrt(std::sqrt(std::min(alpha2, 1.0f)));
   return view;
@@ -91,8 +92,8 @@ float directional_albedo(const SurfaceView& view, const Surface& surface) {
   const float alpha2 = mean2 - 0.5f * away * away * away * (view.alpha2_in_plane - mean2);
   const float whole = std::clamp(
       polynomial<4>(albedo_k, view.openness, std::sqrt(std::clamp(alpha2, 0.0f, 1.0f))), 0.0f, 1.0f);
-  // Evaluates the Fresnel term at the cosine between normal and view at which it equals its mean over the
-  // normals.
+  // Evaluates the Fresnel term at one cosine between normal and view. There, the term equals its mean over
+  // the normals.
   const float rho = view.roughness_in_plane;
   const float cosine = view.facing + rho * polynomial<4>(fresnel_k, std::sqrt(view.facing), rho);
   const float off = std::clamp(1 - cosine, 0.0f, 1.0f), off2 = off * off;

@@ -24,7 +24,8 @@ void baked_vectors(const Response& response, Isa isa, std::span<const float> amp
                    const Transfer& transfer, std::uint32_t first, std::uint32_t count,
                    const VectorOutput& output, const Parallel& parallel, Memory* memory);
 
-// Computes the vectors of vertices without baked visibility: all light above its horizon reaches a vertex.
+// Computes the vectors of vertices without baked visibility: each vertex receives all light above its
+// horizon.
 void open_vectors(const Response& response, Isa isa, std::span<const float> amplitudes,
                   std::span<const Frame> frames, const VectorOutput& output, const Parallel& parallel,
                   Memory* memory);

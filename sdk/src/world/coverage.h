@@ -87,8 +87,9 @@ HullFactor<F> hull_factor(F su, F sv, F spread) {
 // The region is treated as the disc that has the same vector Phi: its sine is sqrt(|Phi|), and t = dot(n,
 // Phi) / |Phi|^(3/2) is the height of its centre in radii. The disc's share above the horizon is |Phi|^(3/2)
 // (t + x(t)) for |t| < 1, where x(t) = (1 - t) / 2 - w1 (1 - t^2) - w2 (1 - t^2)^2 satisfies x(t) - x(-t) =
-// -t exactly. w1 and w2 are polynomials in sqrt(1 - |Phi|). They are 0 on the surface, and exact far away.
-// The error of this fit against the closed form of a disc is at most 0.0052, and its RMS error is 0.001.
+// -t exactly. w1 and w2 are polynomials in sqrt(1 - |Phi|). They are 0 on the surface, and give the exact
+// share far away. The error of this fit against the closed form of a disc is at most 0.0052, and its RMS
+// error is 0.001.
 template <class F>
 F above_horizon(F factor, F size2, F lowest) {
   const F one(1.0f), zero(0.0f);

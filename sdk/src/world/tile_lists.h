@@ -1,6 +1,6 @@
 // For each tile of the screen, lists the bodies that may darken surfaces in the tile. The lists do not depend
-// on the depth of the surfaces. Each body has a sphere, outside which it darkens nothing. The body is in the
-// lists of all tiles that its sphere covers on the screen.
+// on the depth of the surfaces. Each body has a sphere. It darkens nothing outside this sphere. The body is
+// in the lists of all tiles that its sphere covers on the screen.
 #pragma once
 
 #include <cstdint>
