@@ -64,8 +64,8 @@ float norm_sum_of(float shadow, float saturation, float gamma) {
   return gamma == 1 ? norm : std::pow(norm, gamma);
 }
 
-// Computes the coloured shadow of all key points, shadow * (sum of y^gamma rho) / (sum of y^gamma). The sums
-// are the weighted sums of the evaluated key points.
+// Computes the coloured shadow of all key points, shadow * (sum of y^gamma rho) / (sum of y^gamma). light.sum
+// holds the first of these sums for the evaluated key points.
 void colour_shadow(const Instance& instance, InstanceLight& light) {
   const PointLanes& points = instance.arrays().points;
   const float gamma = instance.model->model.kernel.gamma;

@@ -26,8 +26,8 @@ struct VertexMatches {
 };
 
 // Writes the file vertex of each host vertex, or no_vertex. The model must have a rest surface and bind data,
-// and the primitive must belong to it. The running time is about O(n log n) for n vertices, and longer for
-// models with many vertices at one place.
+// and host.primitive must be one of its primitives, or -1. The running time is about O(n log n) for n
+// vertices, and longer for models with many vertices at one place.
 VertexMatches match_vertices(const CharacterModel& model, const HostVertices& host,
                              std::span<std::uint32_t> file_vertices, Memory* memory);
 
