@@ -1,6 +1,6 @@
-// Decodes the bones of baked clips, and writes them to the stream. An update reads bones from there. There is
-// one group for each instance of the update. The bones of the instance are distributed over the threads of
-// its group. decode_bone in sdk/src/character/loaded_clips.cpp does the same on the CPU.
+// Decodes the bones of baked clips, and writes them to the stream, from which the other passes of the update
+// read bones. There is one group for each instance of the update. The bones of the instance are distributed
+// over the threads of its group. decode_bone in sdk/src/character/loaded_clips.cpp does the same on the CPU.
 #include "shaders/character/layout.h"
 #include "shaders/character/nearest_similarity.glsl"
 

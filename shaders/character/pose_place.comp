@@ -1,6 +1,6 @@
-// Copies bones from the poses on the GPU to the stream. An update reads bones from there. There is one group
-// for each instance of the update. If a value of the pose is not finite or too large, the instance gets an AO
-// of 1, which means fully open, and does not occlude other instances.
+// Copies bones from the poses on the GPU to the stream, from which the other passes of the update read bones.
+// There is one group for each instance of the update. If a value of the pose is not finite or too large, the
+// instance gets an AO of 1, which means fully open, and does not occlude other instances.
 #include "shaders/character/layout.h"
 
 layout(local_size_x = NOOK_GROUP_SIZE) in;

@@ -37,7 +37,7 @@ vec3 nook_earlier_position(vec3 position) {
   return vec3(dot(nook_earlier[0], p), dot(nook_earlier[1], p), dot(nook_earlier[2], p));
 }
 
-// Of the changes of depth to both neighbours along an axis, returns the smaller one.
+// Returns the smaller of the two changes of depth to the neighbours along an axis.
 float nook_flat_step(float depth, float before, float after) {
   return min(abs(before - depth), abs(after - depth));
 }

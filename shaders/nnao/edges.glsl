@@ -1,5 +1,5 @@
 // Computes how steeply depth changes from a texel to its neighbours, and which neighbours are on the same
-// surface. Which neighbours are on the same surface is stored in 8 bits beside AO, for the filter.
+// surface. The filter reads the second result from 8 bits that are stored beside AO.
 #include "shaders/nnao/depth.glsl"
 
 // The components are the neighbours on the left, on the right, below and above.
@@ -8,9 +8,9 @@ struct NookNeighbours {
   // a plane, the slopes on both sides of an axis are equal, because 1 / depth (orthographic: depth) is linear
   // on the screen.
   vec4 slope;
-  // 1: the neighbour is on the same surface; 0: there is an edge, or no neighbour. A texel that has hardly any
-  // connected neighbour is connected a little to all that have a surface. Otherwise nothing would remove its
-  // noise, and thin gaps would be rows of dots. XeGTAO's denoiser does the same.
+  // 1: the neighbour is on the same surface; 0: there is an edge, or no neighbour. A texel with almost no
+  // connected neighbours gets a weak connection to each neighbour that has a surface. Otherwise nothing would
+  // remove its noise, and thin gaps would become rows of dots. XeGTAO's denoiser does the same.
   vec4 connected;
 };
 

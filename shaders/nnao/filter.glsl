@@ -1,7 +1,7 @@
 // A bilateral filter along one axis of the screen. Applied along x and then along y, it averages 7 x 7 texels
-// with the weights 1, 3, 6, 7, 6, 3, 1 along each axis. The ninths of the taps' noise repeat every three texels.
-// With these weights, all ninths have the same total weight. A texel is only used if there is no edge between it
-// and the centre, and with more than nine taps if its AO is similar.
+// with the weights 1, 3, 6, 7, 6, 3, 1 along each axis. The noise of the taps (taps.glsl) repeats every three
+// texels. With these weights, each of its nine values has the same total weight. A texel is only used if
+// there is no edge between it and the centre. With more than nine taps, its AO must also be similar.
 uniform sampler2D nook_ao;  // AO, edges, and the bent normal in passes that have it
 
 #ifdef NOOK_FILTER_ALONG_Y
@@ -11,7 +11,7 @@ const uint nook_back_bit = 2u, nook_ahead_bit = 0u;
 const ivec2 nook_filter_step = ivec2(1, 0);
 const uint nook_back_bit = 6u, nook_ahead_bit = 4u;
 #endif
-// With nine taps, AO is too noisy to be compared: rows that differ by their noise alone would stay apart. The
+// With nine taps, AO is too noisy for a comparison: rows that differ only by noise would not be averaged. The
 // filter along x reads texels that are not filtered yet, so it compares them with half the sharpness.
 #if NOOK_DIRECTIONS > 3
 #ifdef NOOK_FILTER_ALONG_Y

@@ -11,7 +11,7 @@ uniform highp vec4 nook_frame[NOOK_FRAME_VEC4S];
 #define nook_far_sign nook_frame[NOOK_FRAME_FAR].y    // 1: stored values increase with the distance; -1: they decrease
 #define nook_min_depth nook_frame[NOOK_FRAME_FAR].z
 #define nook_writes_bent_normals (nook_frame[NOOK_FRAME_FAR].w != 0.0)
-#define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the extent of the screen at a depth is x * depth + y: (1, 0) in a perspective, (0, 1) if orthographic
+#define nook_spread nook_frame[NOOK_FRAME_SPREAD].xy  // the extent of the screen at a depth is x * depth + y: (1, 0) if perspective, (0, 1) if orthographic
 #define nook_edges_per_metre nook_frame[NOOK_FRAME_SPREAD].z  // 1 / the change of depth that is treated as an edge
 #define nook_edges_per_extent nook_frame[NOOK_FRAME_INPUT].y  // like nook_edges_per_metre, but relative to the extent; used if the radius is in pixels
 #define nook_array_layer int(nook_frame[NOOK_FRAME_INPUT].z)  // layer of the host's texture arrays

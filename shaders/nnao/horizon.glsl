@@ -93,8 +93,8 @@ float nook_evaluate(ivec2 texel, vec3 position, vec3 normal, vec2 scale, vec2 ra
   centre.normal = normal;
   centre.viewer = nook_to_viewer(position);
   centre.half_nearness = 0.5 / radius.x;
-  // At the border of the screen, a tap can be clamped to the pixel itself. Its v should be 0 but is a
-  // rounding error, which would act like a random direction. So all distances are raised to at least half a
+  // At the border of the screen, a tap can be clamped to the pixel itself. The v of such a tap should be 0,
+  // but is a rounding error that acts like a random direction. So all distances are raised to at least half a
   // pixel. For fields of view up to 120 degrees, all other pixels are farther away than this.
   float half_pixel = 0.5 / max(abs(scale.x), abs(scale.y));
   centre.min_squared = half_pixel * half_pixel;

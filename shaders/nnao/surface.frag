@@ -4,7 +4,7 @@
 uniform NOOK_HOST_IMAGE nook_layer;
 uniform int nook_question;
 
-// In a pass that excludes surfaces, its own limit; otherwise the limit of layers that replace AO.
+// A pass that excludes surfaces defines its own limit. Other passes use the limit of layers that replace AO.
 #ifndef NOOK_NO_SURFACE_ABOVE
 #define NOOK_NO_SURFACE_ABOVE NOOK_REPLACED_ABOVE
 #endif

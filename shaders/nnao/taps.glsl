@@ -10,9 +10,9 @@ vec2 nook_tap_jitter(ivec2 texel) {
   return vec2(hash >> 16, hash & 0xFFFFu) / 65536.0;
 }
 
-// Returns the noise for rotation and offset. In a block of 3 x 3 pixels, each of the two has one value in each
-// ninth of [0, 1). The place within the ninth is random, because with equal places the shadow of one edge would
-// appear several times, at the same distances from the edge for all pixels.
+// Returns the noise for rotation and offset. In a block of 3 x 3 pixels, each of the two has one value in
+// each ninth of [0, 1). Its position within the ninth is random. If the positions were equal, an edge would
+// cast several copies of its shadow, at the same distances for all pixels.
 vec2 nook_tap_noise(ivec2 texel) {
   vec2 at = vec2(texel);
   vec2 cell = at - 3.0 * floor((at + 0.5) / 3.0);

@@ -55,8 +55,8 @@ float nook_world_caster_open(int texel, vec3 point, vec3 normal) {
   return nook_world_left(share, phi, normal);
 }
 
-// Returns the openness that remains after a capsule which replaces a part or a body. Pass the ends of the
-// capsule.
+// Returns the openness that remains after occlusion by a capsule, which replaces a part or a body. Pass the
+// ends of the capsule.
 float nook_world_merged_open(vec4 end_a, vec4 end_b, vec3 point, vec3 normal) {
   vec3 phi;
   float share = nook_world_far_coverage(end_a, end_b, point, normal, phi);

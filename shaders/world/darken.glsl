@@ -52,8 +52,8 @@ vec3 nook_world_tangent(ivec2 pixel, ivec2 axis, vec3 position) {
   ivec2 step = NOOK_NORMAL_STEP * axis;
   vec2 depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));
 #ifdef NOOK_LAYERED
-  // If the pixel is between two fingers that the layer covers, both neighbours may have no surface. So looks
-  // for the surface beyond the fingers.
+  // If the pixel is between two fingers that the layer covers, both neighbours may have no surface. The loop
+  // then looks for the surface beyond the fingers.
   for (int i = 0; i < 7 && min(depths.x, depths.y) == nook_no_surface; ++i) {
     step += NOOK_NORMAL_STEP * axis;
     depths = vec2(nook_world_depth_beside(pixel - step), nook_world_depth_beside(pixel + step));

@@ -30,11 +30,11 @@ class Buffer {
 
   GLuint name() const { return name_; }
   std::uint64_t bytes() const { return bytes_; }
-  // Replaces the contents: fill(memory) must write `bytes` bytes. The GPU may still read the old contents,
-  // and reads them unchanged. The call does not wait for the GPU, with one exception: if a texture reads the
-  // buffer, NVIDIA's driver waits for the GPU in the map call. OpenGL may lose the written contents, for
-  // example when the display mode changes. In this case, fill is called again. Throws Failure if OpenGL is
-  // out of memory or loses the contents repeatedly.
+  // Replaces the contents: fill(memory) must write `bytes` bytes. If the GPU is still reading the old
+  // contents, it gets them unchanged. The call does not wait for the GPU, with one exception: if a texture
+  // reads the buffer, NVIDIA's driver waits for the GPU in the map call. OpenGL may lose the written
+  // contents, for example when the display mode changes. In this case, fill is called again. Throws Failure
+  // if OpenGL is out of memory or loses the contents repeatedly.
   template <class Fill>
   void write(std::uint64_t bytes, Fill&& fill) {
     for (int attempt = 0; attempt < max_write_attempts; ++attempt) {

@@ -70,8 +70,8 @@ void AoOutput::make_draw_objects() {
   gl.EnableVertexAttribArray(0);
 }
 
-// In a draw, each vertex of the draw packs one word. If the last word has fewer values, it is drawn
-// separately, so that nothing beyond the end of the source is read.
+// Each vertex of the draw packs one word. If the last word is not full, it is drawn separately, so that
+// nothing beyond the end of the source is read.
 void AoOutput::write_packed(const VertexValues& source, const BufferTarget& target) {
   const Functions& gl = device_.gl;
   Object& program = packing_[static_cast<std::size_t>(target.format)];

@@ -1,4 +1,5 @@
-// Copies AO on the GPU to the host's own buffer, as values of 32, 16 or 8 bits, or to the host's texture.
+// Copies AO from buffers of Nook to a buffer or texture of the host, on the GPU. Values have 32, 16 or 8
+// bits.
 #pragma once
 
 #include <nook/nook_gl.h>

@@ -8,8 +8,8 @@
 namespace nook::gl {
 namespace {
 
-// An instance keeps its place until it is this much farther away than it may be to get one. Otherwise an
-// instance at the distance of the pool would come and go in each frame.
+// An instance keeps its place until its distance is this factor times the distance at which it can get one.
+// With a factor of 1, an instance near the limit could gain and lose its place in each frame.
 constexpr float leaving_share = 1.1f;
 
 }  // namespace
@@ -61,7 +61,8 @@ void ComputeScene::choose(std::uint32_t call) noexcept {
   const LoadedModel* model = nullptr;
   std::uint32_t taken = 0;
   for (const Candidate& candidate : candidates_) {
-    // Without sorting, the models may alternate, but then all candidates fit.
+    // If the candidates are not sorted, models alternate and `taken` restarts too early, but then all
+    // candidates fit.
     if (candidate.model != model) taken = 0;
     model = candidate.model;
     if (taken == places) {
@@ -124,7 +125,7 @@ void ComputeScene::finish_assigned(Scene& scene_to_change) noexcept {
 }
 
 void ComputeScene::make_table(Device& device) {
-  // The scene reserves slots for the instances that the host will add, so that the buffer can stay.
+  // The table has an entry for each slot that the scene has reserved, so that it rarely has to grow.
   table.make(device, placements.size(), std::max<std::size_t>(scene->instances.capacity(), 1));
 }
 

@@ -20,7 +20,7 @@ Word4 floats(float x, float y, float z, float w) {
           bit_cast<std::uint32_t>(w)};
 }
 
-// Copies a value to mapped memory, which may be slow to read and is only written.
+// Writes a value to mapped memory. Does not read the memory, because that may be slow.
 void put(Word4* at, const Word4& value) {
   std::memcpy(static_cast<void*>(at), &value, sizeof value);
 }
@@ -77,8 +77,8 @@ void check_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batc
   }
 }
 
-// Lets the instances of the call compete for the places of a pool, where their new poses are. Those that get
-// none leave their pose in the host's buffer.
+// Assigns the places of a pool again, with the distances of the new poses. Instances that get no place leave
+// their new pose in the host's buffer.
 void assign_places(Scene& scene, ComputeScene& placed, const PoseBatch& batch) noexcept {
   placed.measure();
   if (scene.has_camera)
@@ -212,7 +212,7 @@ void take_poses(Scene& scene, ComputeScene& placed, const PoseBatch& batch) noex
 
 // Creates the programs and buffers that do not exist yet. Throws Failure if this is not possible.
 void ComputeTier::make_pose_objects(ComputeScene& placed) {
-  // In a pool, instances change their chunks, so each chunk gets its buffer at once.
+  // In a pool, instances move between chunks, so every chunk gets its buffer now.
   const bool has_pool = placed.scene->pool.is_used();
   const auto is_missing = [&](const ComputeChunk& chunk) {
     return (chunk.poses.count || has_pool) && !chunk.posed.name();

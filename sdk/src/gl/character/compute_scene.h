@@ -16,12 +16,12 @@ namespace nook::gl {
 // The ranges of one level of detail in the arrays of its model. Level 0 is full detail.
 struct LevelRange {
   std::uint32_t first_sphere = 0, spheres = 0;
-  std::uint32_t first_key_point = 0, key_points = 0;  // only the evaluated ones
+  std::uint32_t first_key_point = 0, key_points = 0;  // only key points that the level evaluates
 };
 
 // The tables of clips that clip_bones.comp reads, uploaded once.
 struct PlacedClips {
-  // Throws Failure. It is Failure(UNSUPPORTED) if the tables are too large to be bound by this OpenGL.
+  // Throws Failure, with UNSUPPORTED if the tables are too large to be bound by this OpenGL.
   PlacedClips(Device& device, Ref<const LoadedClips> loaded, std::uint32_t number_in_model);
 
   std::uint32_t first_weight() const;  // words
@@ -35,7 +35,7 @@ struct PlacedClips {
 };
 
 struct ComputeModel : ModelData {
-  // Throws Failure. It is Failure(UNSUPPORTED) if the model exceeds the limits of this OpenGL.
+  // Throws Failure, with UNSUPPORTED if the model exceeds the limits of this OpenGL.
   ComputeModel(Device& device, Ref<const LoadedModel> loaded);
 
   std::uint32_t level_count() const { return static_cast<std::uint32_t>(model->model.levels.size()) + 1; }
@@ -51,8 +51,8 @@ struct ComputeModel : ModelData {
   // for each key point that a coarser level evaluates.
   std::uint32_t shadows() const;
   std::uint32_t influence_pairs() const { return (model->model.influences + 1) / 2; }
-  // For each buffer of a chunk that is bound as a whole, take the bytes that one instance with a light needs.
-  // Returns the largest of these sizes.
+  // Returns how many bytes of one buffer an instance with a light needs at most. Only counts buffers of a
+  // chunk that are bound as a whole.
   std::uint64_t largest_share() const;
 
   std::array<LevelRange, CharacterModel::max_levels + 1> levels;
@@ -61,8 +61,8 @@ struct ComputeModel : ModelData {
   Buffer spheres_rest;
   Buffer key_points_rest;
   Buffer linear;
-  Buffer spread;   // spreads coarser levels' evaluated key points to all; none without such levels
-  Buffer open_ao;  // the view of far instances: each vertex has AO 1; none without a pool
+  Buffer spread;   // table for spread.comp; only for models with several levels
+  Buffer open_ao;  // the AO that far instances show, 1 at each vertex; only in a pool
 };
 
 // Returns the sizes of the buffers of a model and of its instances.
@@ -133,27 +133,27 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   std::uint32_t number_of_clips(const Instance& instance) const;
 
   Buffer stream;  // what one update sends, a piece for each chunk
-  Buffer jobs;    // what one call of set_poses sends, a piece for each chunk; none before the first one
+  Buffer jobs;    // what one call of set_poses sends, a piece for each chunk; created by the first call
   std::uint32_t pose_calls = 0;
-  Buffer spheres;  // of every place of every chunk
+  Buffer spheres;  // for every place of every chunk
   List<PlacedClips> clips;
 
-  // The pool of the scene (compute_pool.cpp). All do nothing without a pool.
+  // The pool of the scene (compute_pool.cpp). Without a pool, the functions do nothing.
 
-  // Makes what assigning needs, so that it does not allocate. Throws Failure.
+  // Reserves the memory that `assign` needs, so that `assign` does not allocate. Throws Failure.
   void make_pool(Device& device);
   // Measures how far each instance is from the camera.
   void measure() noexcept;
-  // Gives places to the nearest instances, and takes them from others. `call` is the call of set_poses that
-  // is about to bring poses to the GPU, or 0. Only then an instance with its pose on the GPU can get a place,
-  // because later the pose is nowhere.
+  // Gives places to the nearest instances, and takes places from others. Pass the number of the call of
+  // set_poses that is about to bring poses to the GPU, or 0. An instance whose pose is on the GPU can only
+  // get a place in such a call, because its pose is not kept for later.
   void assign(Scene& scene_to_change, std::uint32_t call) noexcept;
-  // New instances of the pool have their AO now.
+  // Call this after an update, which has computed the AO of new instances of the pool.
   void finish_assigned(Scene& scene_to_change) noexcept;
   PooledView pooled_view(nook_instance_id instance) const;
-  // Makes the table for the host, or makes it larger if instances were added. Throws Failure.
+  // Creates the table for the host, or enlarges it if instances were added. Throws Failure.
   void make_table(Device& device);
-  // Writes what changed since the last call, if the host uses the table.
+  // Writes what changed since the last call. Does nothing if the host does not use the table.
   void write_table(const Device& device) noexcept;
   PoolTable table;
   PoolCount pool_count;
@@ -171,7 +171,7 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   void enter(Scene& scene_to_change, std::uint32_t slot) noexcept;
   Vector<Candidate> candidates_;
 
-  // Of the scene, when the clips were placed.
+  // Revisions of the scene at the time when the clips were placed.
   std::uint64_t clips_revision_ = 0, clips_structure_ = 0;
   void make_sphere_buffers(Device& device);
   void make_light_buffers(Device& device);

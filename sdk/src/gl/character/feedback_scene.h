@@ -8,12 +8,12 @@
 namespace nook::gl {
 
 struct FeedbackModel : ModelData {
-  // Throws Failure. It is Failure(UNSUPPORTED) if the model exceeds the limits of this OpenGL.
+  // Throws Failure, with UNSUPPORTED if the model exceeds the limits of this OpenGL.
   FeedbackModel(Device& device, Ref<const LoadedModel> loaded);
 
   std::uint32_t influence_quads() const { return (model->model.influences + 3) / 4; }
-  // For each buffer of a chunk that is bound as a whole, take the bytes that one instance with a light needs.
-  // Returns the largest of these sizes.
+  // Returns how many bytes of one buffer an instance with a light needs at most. Only counts buffers of a
+  // chunk that are bound as a whole.
   std::uint64_t largest_share() const { return std::uint64_t{file_vertices()} * 3 * sizeof(float); }
 
   // Attributes of welded vertices, and the map from file order as an index buffer.

@@ -33,8 +33,8 @@ struct ModelData {
   std::uint32_t number = 0;  // identifies the model among the tier's models; starts at 1
 };
 
-// Creates a buffer whose data never change. Throws Failure. It is Failure(UNSUPPORTED) if the buffer is too
-// large to be bound by this OpenGL.
+// Creates a buffer whose data never change. Throws Failure, with UNSUPPORTED if the buffer is too large to be
+// bound by this OpenGL.
 Buffer static_buffer(Device& device, const char* label, const void* data, std::uint64_t bytes);
 template <class T>
 Buffer static_buffer(Device& device, const char* label, const Vector<T>& data) {
@@ -100,15 +100,15 @@ std::uint32_t max_in_chunk(const Device& device, std::uint64_t share);
 template <class Chunk>
 struct Placement {
   nook_instance_id id = 0;
-  std::uint32_t place = 0;  // without a chunk, ModelData::number of the model whose ones the view shows
-  Chunk* chunk = nullptr;   // null: in the far form of a pool
+  std::uint32_t place = 0;  // without a chunk: ModelData::number of the model whose open AO the view shows
+  Chunk* chunk = nullptr;   // null: the instance is far, in a scene with a pool
   bool evaluated = false;   // the AO in the chunk comes from an update
   bool lit = false;         // the last update saw a light
   // Only in a scene with a pool (compute_pool.cpp).
-  bool is_chosen = false;        // for a place in this update
-  bool is_new = false;           // in its place, which still has the AO of another instance
+  bool is_chosen = false;        // gets a place in this update
+  bool is_new = false;           // its place still has the AO of another instance
   float distance = 0;            // from the camera
-  std::uint32_t generation = 0;  // of the view
+  std::uint32_t generation = 0;  // PooledView::generation
   std::uint32_t pose_call = 0;   // the last call of set_poses that named the instance
 };
 
@@ -233,7 +233,7 @@ class PlacedScene {
     placements[slot].id = scene->instances[slot].id;
     take_place(chunk, slot);
   }
-  // Makes room for the near instances of each model. New instances begin in the far form.
+  // Makes room for the near instances of each model. New instances start far, without a place.
   void place_far(Device& device, List<Model>& models) {
     const Vector<PoolShare> shares = pool_shares(*scene, device.memory);
     chunks.remove_if([&](const Chunk& chunk) {
@@ -247,7 +247,7 @@ class PlacedScene {
         if (chunk.model->model.get() == share.model.get()) room += chunk.capacity;
       if (room >= share.places) continue;
       Model& shared = model_data(device, models, share.model);
-      // Where instances are added one by one, the room grows by half.
+      // If the host adds instances one by one, the room grows by half each time it is full.
       const std::uint32_t wanted = std::min(std::max(share.places, room + room / 2), scene->pool.places);
       const std::uint32_t most = max_in_chunk(device, shared.largest_share());
       for (; room < wanted; room += chunks.back().capacity)
@@ -258,7 +258,7 @@ class PlacedScene {
       placement.id = scene->instances[slot].id;
       if (!placement.id || placement.chunk) continue;
       const std::uint32_t number = model_data(device, models, scene->instances[slot].model).number;
-      if (placement.place != number) placement.generation = 0;  // another view
+      if (placement.place != number) placement.generation = 0;  // the view has changed
       placement.place = number;
     }
   }

@@ -38,7 +38,7 @@ class PoolTable {
       const PoolEntry entry = entry_of(i);
       if (entry == written_[i]) continue;
       written_[i] = entry;
-      // A call costs more than a few entries that did not change.
+      // One call that also writes a few unchanged entries is cheaper than two calls.
       if (begin != end && i - end > max_gap) {
         send(device, begin, end);
         begin = end;

@@ -26,10 +26,10 @@ struct PooledView {
   bool is_near = false;
 };
 
-// What the last assignment of a pool's places found.
+// The result of the last assignment of a pool's places.
 struct PoolCount {
-  std::uint32_t near = 0;     // instances in a place
-  std::uint32_t waiting = 0;  // instances that are near enough, but found the pool full
+  std::uint32_t near = 0;     // instances that have a place
+  std::uint32_t waiting = 0;  // instances that are near enough, but got no place because the pool is full
 };
 
 // The table of a pool on the GPU.

@@ -10,7 +10,7 @@
 namespace nook::gl {
 
 // Returns the number of texture arrays that the spatial modes need. max_layers is the maximum number of
-// layers in one array. The two layers of a mode in blocks must be in the same array.
+// layers in one array. If a mode is stored in blocks, both of its layers must be in the same array.
 inline std::uint32_t array_count(const material::TensorTables& tables, std::uint32_t max_layers) {
   return (tables.layers() + max_layers - 1) / max_layers;
 }

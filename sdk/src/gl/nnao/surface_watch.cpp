@@ -43,7 +43,7 @@ void SurfaceWatch::end(const Device& device) {
   device.gl.EndQuery(target_);
 }
 
-// Returns false if a result is not there yet.
+// Returns false if a result is not available yet.
 bool SurfaceWatch::read(const Device& device) {
   const Functions& gl = device.gl;
   for (Query& query : queries_) {
@@ -57,7 +57,7 @@ bool SurfaceWatch::read(const Device& device) {
   return true;
 }
 
-// Frames with other settings do not tell whether the settings of the next frame are meant.
+// Forgets that a setting was right in an earlier frame if the next frame has another value.
 void SurfaceWatch::forget_changed(const NnaoFrame& next) {
   if (next.gbuffer_ao != frame_.gbuffer_ao) was_right_[NOOK_WATCH_UNMASKED] = false;
   if (next.radius != frame_.radius || next.radius_kind != frame_.radius_kind ||
@@ -70,15 +70,15 @@ void SurfaceWatch::judge(const Device& device) {
   for (int question = 0; question < questions; ++question) {
     // Without a surface, the other questions have no answer.
     if (!asks(question) || (question != NOOK_WATCH_SURFACE && seen == 0)) continue;
-    // A radius that fits 1 of 20 pixels was probably meant. For OpenGL ES, which only tells 1 from 0, it must
-    // fit none.
+    // A radius that fits at least 1 of 20 pixels is probably intended. Queries of OpenGL ES only return
+    // whether any pixel was drawn, so there the radius is wrong only if it fits no pixel.
     const bool is_radius = question == NOOK_WATCH_FAR_ENOUGH || question == NOOK_WATCH_NEAR_ENOUGH;
     const std::uint64_t pixels = queries_[std::size_t(question)].pixels;
     const bool is_wrong = is_radius ? 20 * pixels < seen : pixels == 0;
     bool &was_wrong = was_wrong_[std::size_t(question)], &was_right = was_right_[std::size_t(question)];
     if (is_wrong && !was_wrong && !was_right) report(device, question);
     was_wrong = is_wrong;
-    // A sky that fills the picture is like a depth that the host stopped to draw.
+    // A missing surface is reported even if earlier frames had one: the host may have stopped drawing depth.
     if (question != NOOK_WATCH_SURFACE) was_right |= !is_wrong;
   }
 }
@@ -94,7 +94,7 @@ void SurfaceWatch::report(const Device& device, int question) const {
                   "the green "
                   "channel of frame.gbuffer_ao_texture %u is 1 at all of them (with frame.gbuffer_ao %d); "
                   "clear green "
-                  "to 0 where the pass shall darken, such as on floors",
+                  "to 0 where the pass should darken, such as on floors",
                   frame_.gbuffer_ao_texture, frame_.gbuffer_ao);
       return;
     case NOOK_WATCH_FAR_ENOUGH:

@@ -1,7 +1,8 @@
-// If nook_gl_desc.debug is set, logs a message when a frame cannot show AO. Then its depth shows no surface,
-// the host's mask covers all surfaces, or the radius does not fit the depth. Masks and radii that were right
-// in an earlier frame are not logged: the camera may be close to a character that the mask covers, or to a
-// wall. The message comes when the results of queries are available, which may be some frames later.
+// If nook_gl_desc.debug is set, logs a message when a frame cannot show AO, for one of three reasons: its
+// depth shows no surface, the host's mask covers all surfaces, or the radius does not fit the depth. A mask
+// or radius that was right in an earlier frame is not reported, because the camera may just be close to a
+// wall, or to a character that the mask covers. Query results, and so the message, may arrive some frames
+// later.
 #pragma once
 
 #include <array>
