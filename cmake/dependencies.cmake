@@ -8,7 +8,7 @@ if(NOOK_BAKERS)
   find_package(TBB REQUIRED)
   find_package(Eigen3 3.4 REQUIRED NO_MODULE)
   find_path(LBFGSPP_INCLUDE_DIR LBFGS.h REQUIRED)
-  # By pkg-config: the CMake package of Debian's OpenImageIO requires tools and headers that it does not need.
+  # Uses pkg-config, because the CMake package of Debian's OpenImageIO requires tools and headers that Nook does not need.
   pkg_check_modules(OIIO REQUIRED IMPORTED_TARGET OpenImageIO)
   find_package(CLI11 REQUIRED)
   find_package(meshoptimizer REQUIRED)
@@ -19,7 +19,7 @@ if(NOOK_BAKERS OR NOOK_SAMPLES OR NOOK_TESTS)
   find_package(TinyGLTF REQUIRED)
   find_package(glm REQUIRED)
 endif()
-# Programs with the objects of the import link these.
+# Programs that contain the import of glTF files link these libraries.
 if(NOOK_BAKERS)
   set(NOOK_DRACO_FOUND OFF)
   if(NOOK_DRACO)

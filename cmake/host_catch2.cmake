@@ -1,5 +1,6 @@
-# Catch2 for tests of another machine. Catch2 2 is headers only, so that a cross compiler can use the host's
-# headers. They are copied, because the host's other headers in the same folder are not for that compiler.
+# Catch2 for tests that are compiled for another machine. Catch2 2 consists only of headers, so a cross compiler can use the
+# host's copy. The headers are copied to their own folder, because the cross compiler must not see other headers of the
+# host.
 find_path(NOOK_HOST_CATCH2 catch2/catch.hpp PATHS /usr/include NO_CMAKE_FIND_ROOT_PATH)
 find_path(NOOK_HOST_CATCH2_MODULE Catch.cmake PATHS /usr/lib/cmake/Catch2 NO_CMAKE_FIND_ROOT_PATH)
 if(NOT NOOK_HOST_CATCH2 OR NOT NOOK_HOST_CATCH2_MODULE)

@@ -1,20 +1,18 @@
-# Precompiled headers for everything but the product. Most of the cost of a translation unit is parsing the
-# standard library, Catch2, Eigen and nlohmann-json. The library itself is compiled plainly, as its users
-# compile it. There are two exceptions: under the sanitizers, where nothing else is built, and with
-# NOOK_PRECOMPILE_LIBRARY, which samples/run.sh sets.
+# Precompiled headers for all targets except the library. Most of the cost of a translation unit is parsing the standard
+# library, Catch2, Eigen and nlohmann-json. The library itself is compiled without them, as its users compile it. There are
+# two exceptions: builds with sanitizers, which build nothing else, and NOOK_PRECOMPILE_LIBRARY, which samples/run.sh sets.
 #
-# Programs (the tool, samples and tests) are compiled with -O1. They only wait for the rooms, which keep their
-# optimisation, and optimising took a third of their compile time. Programs that measure time keep their
-# optimisation, and have no precompiled header.
+# Programs (the tool, samples and tests) are compiled with -O1, because optimising took a third of their compile time. They
+# spend their run time in the libraries, which keep their optimisation. Programs that measure time keep their optimisation,
+# too, and have no precompiled header.
 #
 # A library with the property NOOK_PROGRAM_PART is compiled like a program.
 #
-# One precompiled header serves all targets with the same flags; libraries and programs differ in
-# position-independent code. Each target below compiles one empty source, and the others take the header from
-# it.
+# All targets with the same flags share one precompiled header. Only libraries have position-independent code, so libraries
+# and programs have different headers. Each target below compiles one empty source, and the other targets reuse its header.
 
-# nook_precompiled(NAME TYPE HEADER...): the headers, compiled with the flags of all targets. CMake wants a header for C as well
-# where targets have sources in C.
+# nook_precompiled(NAME TYPE HEADER...): the headers, compiled with the flags of all targets. If targets have sources in C,
+# CMake also requires a header for C.
 function(nook_precompiled name type)
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/precompiled/${name}.cpp CONTENT "int main() { return 0; }\n")
   file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/precompiled/${name}.c CONTENT "typedef int ${name};\n")
@@ -94,12 +92,12 @@ function(nook_precompile_directory directory)
     set_target_properties(${target} PROPERTIES PRECOMPILE_HEADERS_REUSE_FROM ${precompiled}
                           PCH_WARN_INVALID OFF)
     add_dependencies(${target} ${precompiled})
-    # These warnings of gcc 12 see faults inside the standard library's own strings once its headers come precompiled.
+    # With precompiled headers, gcc 12 gives these warnings for correct strings of the standard library.
     target_compile_options(${target} PRIVATE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-array-bounds;-Wno-restrict;-Wno-stringop-overflow;-Wno-stringop-overread>)
     # Skips targets in C, and targets with their own flags.
     get_target_property(sources ${target} SOURCES)
     list(FILTER sources INCLUDE REGEX "\\.(c|cpp)$")
-    # Relative names would mean files in the folder of this script.
+    # A relative name would be looked up in the folder of this script.
     get_target_property(folder ${target} SOURCE_DIR)
     foreach(name IN LISTS sources)
       cmake_path(ABSOLUTE_PATH name BASE_DIRECTORY ${folder} OUTPUT_VARIABLE source)
@@ -116,7 +114,8 @@ function(nook_precompile_directory directory)
   endforeach()
 endfunction()
 
-# Clang writes the times of all headers into a precompiled header, so that ccache would take no object from another checkout.
+# By default, Clang stores the times of all headers in a precompiled header. Then ccache could not reuse objects from
+# another checkout.
 if(CMAKE_CXX_COMPILER_ID STREQUAL "Clang")
   string(APPEND CMAKE_CXX_FLAGS " -Xclang -fno-pch-timestamp")
 endif()

@@ -1,5 +1,5 @@
-# Reads the version from its one home, nook.h: nook_version for project(), and nook_version_text, which has the suffix of a
-# candidate as well.
+# Reads the version from nook.h, which is the only file that contains it. Sets nook_version for project(), and
+# nook_version_text, which also has the suffix of a release candidate.
 set(version_home ${CMAKE_CURRENT_LIST_DIR}/../sdk/include/nook/nook.h)
 foreach(part MAJOR MINOR PATCH SUFFIX)
   file(STRINGS ${version_home} line REGEX "^#define NOOK_VERSION_${part} ")

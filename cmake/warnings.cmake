@@ -7,18 +7,18 @@ function(nook_target_options target)
   if(NOOK_WERROR)
     target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU,Clang,AppleClang>:-Werror>)
   endif()
-  # Without these options, MSVC reads sources in the code page of the machine, accepts what is not C++ and
-  # hides the version of the language. It warns of standard C functions, such as fopen.
+  # Without these options, MSVC reads sources in the code page of the machine, accepts code that is not standard C++, and
+  # sets __cplusplus to an old version. It also warns about standard C functions, such as fopen.
   if(MSVC)
     target_compile_options(${target} PRIVATE /utf-8 $<$<COMPILE_LANGUAGE:CXX>:/permissive- /Zc:__cplusplus>)
     target_compile_definitions(${target} PRIVATE _CRT_SECURE_NO_WARNINGS)
   endif()
-  # Emscripten leaves exceptions out without this option; the library throws, and catches at its C functions.
+  # Without this option, Emscripten disables exceptions. The library throws exceptions, and catches them in its C functions.
   if(EMSCRIPTEN)
     target_compile_options(${target} PRIVATE -fexceptions)
   endif()
-  # A game in its Debug build still needs frames. GCC and Clang take the last of several -O; MSVC refuses /O2 beside the
-  # /RTC1 of Debug.
+  # A game needs a usable frame rate in its Debug build, too. If there are several -O options, GCC and Clang use the last
+  # one. MSVC is left out, because it does not accept /O2 together with the /RTC1 of Debug.
   if(NOOK_OPTIMISE)
     target_compile_options(${target} PRIVATE
       $<$<AND:$<CXX_COMPILER_ID:GNU,Clang,AppleClang>,$<NOT:$<CONFIG:Release,RelWithDebInfo,MinSizeRel>>>:-O2>)

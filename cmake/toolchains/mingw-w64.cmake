@@ -1,6 +1,5 @@
-# Builds for Windows on x86-64 by MinGW-w64 with POSIX threads, as in Debian's g++-mingw-w64-x86-64-posix.
-# Programs run under wine. The C++ runtime goes into each program and DLL, so that they need no other DLL than
-# Windows' own.
+# Builds for Windows on x86-64 with MinGW-w64 and POSIX threads, as in Debian's g++-mingw-w64-x86-64-posix. Programs run
+# under wine. The C++ runtime is linked into each program and DLL, so they only need the DLLs of Windows.
 set(CMAKE_SYSTEM_NAME Windows)
 set(CMAKE_SYSTEM_PROCESSOR x86_64)
 set(CMAKE_C_COMPILER x86_64-w64-mingw32-gcc-posix)

@@ -40,8 +40,8 @@ static const char vertex_text[] =
     "      rows[i] += weights[j] * texelFetch(bones, 3 * (first_bone + int(joints[j])) + i);\n"
     "  vec3 d = vec3(dot(rows[0], p), dot(rows[1], p), dot(rows[2], p)) - eye;\n"
     "  normal_ws = vec3(dot(rows[0].xyz, normal), dot(rows[1].xyz, normal), dot(rows[2].xyz, normal));\n"
-    /* For a live pose, the scene's buffer holds the complete AO. For a clip, it holds only the AO of the
-     * others and the ground. */
+    /* For a live pose, the scene's buffer holds the complete AO. For a clip, it holds only the AO that other
+     * bodies and the ground cause. */
     "  ao = scene_ao;\n"
     "  if (has_clip) ao *= nook_clip_ao(gl_VertexID, frames, share);\n"
     "  if (!with_ao) ao = 1.0;\n"
@@ -71,7 +71,7 @@ static const char point_fragment_text[] =
 
 typedef struct Member {
   nook_instance_id id;
-  float place[12]; /* 3x4, row-major: where it stands */
+  float place[12]; /* 3x4, row-major: where the member stands */
   float albedo[3];
   int live;
   nook_clip_time time;
@@ -206,7 +206,7 @@ static nook_result pose_all(App* a) {
   return nook_gl_scene_update(a->gl, a->scene);
 }
 
-/* Sets the two frames of a clip that the time lies between. */
+/* Sets the uniforms for the two frames of a clip around the time. */
 static nook_result set_time(const App* a, GLuint program, const nook_clip_time* time) {
   uint32_t frames[2] = {0, 0};
   float share = 0;

@@ -37,8 +37,8 @@ uniform vec3 background;
 out vec4 colour;
 void main() {
 #ifdef GROUND
-  // RGB is how much of the soft light is open after the occlusion by characters and the screen. Alpha is the
-  // same for the sun.
+  // RGB is the share of the soft light that remains after occlusion by characters and on the screen. Alpha is
+  // the same share for the sun.
   vec4 open = mix(vec4(1.0), use_screen_ao ? fetch_screen_light() : vec4(1.0), ao_strength);
   vec3 irradiance = ground_irradiance * open.rgb + ground_sun_irradiance * open.a;
 #else
@@ -114,8 +114,9 @@ const char* const fetch_screen_glsl = R"(
 uniform bool use_screen_ao;
 uniform sampler2D screen_ao;
 uniform sampler2D screen_depth;
-// The picture is multisampled and AO is not, so that at an edge the texel may belong to another surface. This takes
-// the texel, of this one and the four beside it, whose depth is nearest.
+// The picture is multisampled and AO is not, so at an edge, the texel may belong to another surface. From
+// this texel and the four texels beside it, the function takes the one whose depth is nearest to the
+// fragment's depth.
 vec4 fetch_screen_light() {
   const ivec2 steps[5] = ivec2[5](ivec2(0), ivec2(1, 0), ivec2(-1, 0), ivec2(0, 1), ivec2(0, -1));
   ivec2 pixel = ivec2(gl_FragCoord.xy), last = textureSize(screen_depth, 0) - 1, best = pixel;

@@ -26,13 +26,13 @@ struct DrawnInstance {
   VertexSource ao;  // one float for each vertex; without a buffer the instance is fully open
   glm::vec3 albedo{0.6f};
   VertexSource light;     // three floats for each vertex: directional AO
-  GLint light_texel = 0;  // where Nook's view has the instance's light
+  GLint light_texel = 0;  // first texel of the instance's light, from Nook's view
 };
 
 // The result of the screen-space pass and the world pass, for the same instances and the same camera.
 struct ScreenAo {
-  // 0 if there was no such pass. Red is AO. Under a light, red, green and blue are the open shares of the
-  // soft light, and alpha is the open share of the sun.
+  // 0 if no pass has run. Red is AO. Under a light, red, green and blue are the open shares of the soft
+  // light, and alpha is the open share of the sun.
   GLuint texture = 0;
   GLuint depth = 0;  // single-sampled, as large as the viewport
 };
@@ -78,7 +78,7 @@ class Renderer {
 
   const GladGLContext& gl_;
   platform::Program character_surface_, ground_surface_;
-  std::optional<platform::Program> character_, ground_;  // made for the first picture, which has the GLSL
+  std::optional<platform::Program> character_, ground_;  // created with the first picture, which has the GLSL
   GLsizei index_count_;
   std::size_t bone_texels_;
   GLuint arrays_[2] = {};  // character, ground
@@ -92,14 +92,14 @@ inline constexpr glm::vec3 ground_albedo{0.36f, 0.36f, 0.37f};
 // The sample's shaders, for OpenGL 3.3 core. Fragment shaders write linear light to an sRGB target. Both
 // vertex shaders also write surface_ao, plain AO. Only the fragment shaders of nook-lab-crowd read it; the
 // fragment shaders of the sample use directional AO from surface_light. Only nook-lab-motion reads
-// surface_rest_m, the place of a character's vertex in the rest pose. Characters: linear blend skinning with
-// the bones in a texture buffer, three texels for each bone.
+// surface_rest_m, the position of a character's vertex in the rest pose. Characters use linear blend
+// skinning. Their bones are in a texture buffer, with three texels for each bone.
 extern const char* const character_vertex;
 // One big quad on y = 0, made from gl_VertexID.
 extern const char* const ground_vertex;
 extern const char* const glsl_version;
-// The function fetch_screen_light(), with which a fragment shader reads ScreenAo; and fetch_screen_ao() for
-// nook-lab-crowd, which returns its red channel.
+// GLSL functions that read ScreenAo in a fragment shader. fetch_screen_light() returns all channels.
+// fetch_screen_ao() returns the red channel, for nook-lab-crowd.
 extern const char* const fetch_screen_glsl;
 
 }  // namespace crowd

@@ -8,7 +8,7 @@ namespace crowd {
 struct DebugView {
   bool spheres = false;  // the proxy spheres of bodies, coloured by bone
   bool links = false;    // a line from each caster to each body that it darkens
-  int bodies = 1;        // the bodies that spheres are shown for, the nearest to the camera first
+  int bodies = 1;        // number of bodies whose spheres are shown, nearest to the camera first
 };
 
 // Draws over everything but ImGui's panels, within an ImGui frame. Spheres and links come from the last

@@ -44,9 +44,9 @@ class Hero {
 // Makes the built-in character and returns the path of its file in the folder.
 std::filesystem::path built_in_glb(const std::filesystem::path& folder);
 
-// Returns the bytes of the model's file for a character from the cache. If the cache has none, bakes one with
-// the draft preset and shows the progress. gamma is the exponent of the norm that adds up shadows; 0 takes
-// the preset's.
+// Returns the bytes of the model's file for a character from the cache. If the cache has no model, bakes one
+// with the draft preset and shows the progress. gamma is the exponent of the norm that adds up shadows; 0
+// means the value of the preset.
 std::vector<unsigned char> cached_model(const Hero& hero, const std::filesystem::path& cache, bool quiet,
                                         float gamma = 0);
 

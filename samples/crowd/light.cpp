@@ -25,7 +25,7 @@ const std::vector<nook_lobe> fitted_sky = {
     {{-0.750783861f, 0.309912652f, -0.583333313f}, 6, {0.352694869f, 0.48620677f, 0.767675638f}, 0},
     {{0.280347794f, -0.59908694f, -0.750000119f}, 6, {0.318020046f, 0.211280927f, 0.0298771728f}, 0},
     {{0.119609579f, 0.381334186f, -0.916666687f}, 6, {0.281022727f, 0.391988933f, 0.657399476f}, 0}};
-// 30 degrees high, about 15 degrees wide.
+// A sun 30 degrees above the horizon, about 15 degrees wide.
 constexpr nook_lobe hazy_sun{{0.62f, 0.5f, 0.605f}, 30, {40, 30, 18}, 0};
 
 // The irradiance of a surface that faces up.

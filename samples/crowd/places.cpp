@@ -20,7 +20,7 @@ int bearing_index(float bearing_rad) {
   return int((turns - std::floor(turns)) * Outline::bearings) % Outline::bearings;
 }
 
-// This gives the same values everywhere, unlike the distributions of the standard library.
+// Gives the same values on every platform, unlike the distributions of the standard library.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}

@@ -45,7 +45,8 @@ class ScreenPasses {
   ScreenAo draw_screen(Renderer& renderer, std::span<const DrawnInstance> instances, const Camera& camera,
                        nook_gbuffer_ao layer);
 
-  // The passes and their inputs in the last draw. A report evaluates the frame again, or records it.
+  // The passes and their inputs in the last draw. With them, a program can evaluate the frame again, or
+  // record it.
   nook::Nnao screen;
   nook::WorldPass world;
   nook_gl_frame_desc frame{};

@@ -29,7 +29,7 @@ struct Controls {
   float intensity = 1, turn = 0, height = 0.35f, distance_m = 8;
   int link_count = 4;
   DebugView debug;
-  std::string model_text;  // what happened to the model's file last
+  std::string model_text;  // what happened when the model's file was last loaded
 
   std::uint32_t terms() const {
     return std::uint32_t(self * NOOK_TERM_SELF | neighbours * NOOK_TERM_LINKS | ground * NOOK_TERM_GROUND);
@@ -73,7 +73,9 @@ void show_panel(Controls& c, const nook_scene_info& info) {
   const float line = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(ImVec2(line, line), ImGuiCond_FirstUseEver);
   ImGui::Begin("Nook", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-  if (!ImGui::IsWindowFocused()) ImGui::SetWindowFocus();  // keys reach it after a click beside it
+  if (!ImGui::IsWindowFocused())
+    ImGui::SetWindowFocus();  // so that keys still reach the panel after a click
+                              // beside it
   // The name next to a slider is up to 10 line heights wide.
   const float width = std::clamp(room.x - 3 * line, 13 * line, 23 * line);
   ImGui::PushItemWidth(width - 11 * line);
@@ -115,7 +117,7 @@ std::string load_again(CrowdScene& scene, const std::filesystem::path& model) {
     scene.set_model(platform::read_file(model));
     return "loaded " + model.filename().string() + " again";
   } catch (const std::exception& failure) {
-    return std::string("kept the model from before: ") + failure.what();
+    return std::string("kept the old model: ") + failure.what();
   }
 }
 
@@ -178,8 +180,8 @@ class Window {
   void scale_panel() {
     float scale = 1;
     glfwGetWindowContentScale(context_.window(), &scale, nullptr);
-    // If a unit of the window is more than a pixel, ImGui scales on its own. While the window changes its
-    // size, both sizes may be of different frames, and their quotient may be anything.
+    // If a unit of the window is more than a pixel, ImGui scales on its own. While the window is resized, the
+    // two sizes may come from different frames. Then their quotient is wrong.
     const float unit_px = ImGui::GetIO().DisplayFramebufferScale.x;
     if (!(unit_px > 0)) return;
     scale = std::clamp(scale / unit_px, 1.0f, 8.0f);
@@ -204,7 +206,7 @@ class Window {
   CrowdScene& scene_;
   const Light& light_;
   Renderer renderer_;
-  std::optional<ScreenPasses> passes_;  // of the window's size
+  std::optional<ScreenPasses> passes_;  // as large as the window
   float scale_ = 0;
 };
 
@@ -226,7 +228,7 @@ void run_window(platform::Context& context, const Hero& hero, const std::vector<
   int links = c.link_count;
   float time_s = 0;
   platform::Stopwatch watch;
-  int moving_frames = frames_before_picture;  // are left until the picture holds still
+  int moving_frames = frames_before_picture;  // frames that are still drawn without a pause
   for (int frame = 1; !context.should_close(); ++frame) {
     const auto now_written = std::filesystem::last_write_time(request.model, absent);
     if (now_written != written) c.model_text = load_again(scene, request.model);

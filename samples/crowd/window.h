@@ -12,11 +12,11 @@
 namespace crowd {
 
 struct WindowRequest {
-  std::filesystem::path model;    // need not be there yet
+  std::filesystem::path model;    // need not exist yet
   std::filesystem::path picture;  // empty, or where the window writes a picture of itself before it closes
   int link_count = 4;
-  std::vector<std::string> debug;  // what it shows first: spheres, links
-  int bodies = 1;                  // that spheres are shown for
+  std::vector<std::string> debug;  // debug views that are on at the start: spheres, links
+  int bodies = 1;                  // number of bodies whose spheres are shown
 };
 
 // Returns when the window is closed.

@@ -1,7 +1,7 @@
 // Reads a rigged glTF file for a viewer: one mesh, skins, nodes and clips. Vertices are in the order of the
 // file, and primitives follow the order of the nodes, which is also the order of Nook's AO. A mesh with
-// EXT_mesh_gpu_instancing appears once for each instance. The file leaves out meshes that a bake leaves out:
-// hidden meshes, lower levels of detail, and meshes that the caller names.
+// EXT_mesh_gpu_instancing appears once for each instance. Meshes that a bake leaves out are not read: hidden
+// meshes, lower levels of detail, and meshes that the caller names.
 #pragma once
 
 #include <cstdint>
@@ -59,7 +59,7 @@ struct Pose {
 
 struct CharacterFile {
   std::vector<Node> nodes;
-  std::vector<int> parents_first;  // an order of the nodes
+  std::vector<int> parents_first;  // all nodes, each after its parent
   std::vector<Skin> skins;         // in the order of the file
   std::uint32_t first_node_matrix = 0;
   std::vector<Vertex> vertices;

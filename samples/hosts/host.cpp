@@ -10,7 +10,7 @@
 #include "platform/platform.h"
 #include "platform/standard_streams.h"
 
-// As in GL/glx.h, whose X11 headers define Success and other words as macros.
+// Declared as in GL/glx.h. That header includes X11 headers, which define Success and other words as macros.
 extern "C" void (*glXGetProcAddressARB(const GLubyte* name))();
 
 namespace hosts {

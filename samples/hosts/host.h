@@ -15,9 +15,9 @@ namespace hosts {
 struct Options {
   std::filesystem::path character, model, out;
   std::string clip;
-  std::string path = "gpu";  // where Nook evaluates the vertices: gpu, cpu, or none, which leaves Nook out;
-                             // vtk, traced: vtkSSAOPass, rays
-  std::string show = "lit";  // lit, plain (no shader reads what Nook made) or ao
+  std::string path = "gpu";        // gpu, cpu: where Nook evaluates the vertices; none: without Nook; vtk:
+                                   // vtkSSAOPass; traced: ray tracing
+  std::string show = "lit";        // lit, plain (no shader reads what Nook made) or ao
   std::string state = "preserve";  // preserve, defaults or host
   bool orthographic = false;       // VTK only
   int width_px = 640, height_px = 480;

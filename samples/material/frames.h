@@ -18,7 +18,7 @@ struct Stage {
   const std::vector<Mesh>& meshes;
   const platform::RenderTarget& target;
   float aspect = 1;
-  bool is_one_sided = false;  // without the insides of the surfaces
+  bool is_one_sided = false;  // true: the insides of the surfaces are not drawn
 };
 
 // Draws all passes of a frame. Without `silhouettes`, it ignores the visibility of the meso-structure.

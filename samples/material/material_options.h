@@ -16,7 +16,7 @@ struct Options {
   int width_px = 960, height_px = 540;
   float tile_m = 0.16f;       // the side of a tile on the shapes
   std::uint32_t fetches = 2;  // along each pixel
-  bool is_one_sided = false;  // without the insides of the surfaces
+  bool is_one_sided = false;  // true: the insides of the surfaces are not drawn
   std::filesystem::path out = "out/material", report;
   bool quiet = false;
 };

@@ -10,10 +10,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Stands in for the engine's animation: the matrices of its vertex shader, joint matrix * inverse bind
- * matrix, in columns of four. This character stands still in its rest pose, x_m to the side, so that all of
- * its joints have the same one. It is not the identity: like most files, this one turns and scales above its
- * skeleton. */
+/* Stands in for the engine's animation. Returns the matrices of its vertex shader, joint matrix * inverse
+ * bind matrix, in columns of four. This character stands still in its rest pose, x_m to the side, so all of
+ * its joints have the same matrix. The matrix is not the identity: like most files, this one has a rotation
+ * and a scale above its skeleton. */
 static float* skinning_matrices(const nook_skin_info* skin, float x_m) {
   float* const joints = calloc(skin->joint_count, 16 * sizeof(float));
   for (uint32_t j = 0; joints && j < skin->joint_count; ++j) {
@@ -81,7 +81,7 @@ static nook_result start(Character* c, const void* bytes, size_t size) {
   return r;
 }
 
-/* ---- 2. Each frame: hand over the poses, evaluate, read one value a vertex ---- */
+/* ---- 2. Each frame: hand over the poses, evaluate, read one value for each vertex ---- */
 static nook_result frame(Character* c, const float* left_pose, const float* right_pose, uint32_t joint_count,
                          float* ao, uint32_t vertex_count) {
   nook_result r;

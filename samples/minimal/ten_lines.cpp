@@ -16,9 +16,9 @@ std::vector<char> read_file(const char* path) {
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
-// Stands in for the engine's animation: the matrices of its vertex shader, joint matrix * inverse bind
-// matrix, in columns of four. The character stands still in its rest pose, x_m to the side, so that all of
-// its joints have the same one.
+// Stands in for the engine's animation. Returns the matrices of its vertex shader, joint matrix * inverse
+// bind matrix, in columns of four. The character stands still in its rest pose, x_m to the side, so all of
+// its joints have the same matrix.
 std::vector<float> animate(const nook::CharacterModel& model, float x_m) {
   nook_skin_info skin{};
   skin.struct_size = sizeof skin;

@@ -153,7 +153,7 @@ static nook_result describe_frame(const Engine* e, float radius_m, nook_gl_frame
   return NOOK_OK;
 }
 
-/* Returns in *ao the texture that the lighting reads. */
+/* Writes the texture that the lighting reads to *ao. */
 static nook_result run_pass(Pass* p, const Engine* e, float radius_m, GLuint* ao) {
   nook_gl_frame_desc frame;
   nook_nnao_frame_desc desc;

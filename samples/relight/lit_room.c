@@ -7,7 +7,7 @@
 typedef struct Mesh {
   room_vertex* vertices;
   int count, space, failed;
-  room_vertex paint; /* its colour and gloss go to what is added */
+  room_vertex paint; /* has the colour and gloss of the vertices that are added next */
 } Mesh;
 
 static void paint(Mesh* m, float red, float green, float blue, float roughness, float reflectance) {
@@ -66,7 +66,7 @@ static void put_sphere(Mesh* m, float x, float y, float z, float radius) {
 }
 
 static void put_walls(Mesh* m) {
-  const float t = 0.2F; /* thick */
+  const float t = 0.2F; /* thickness of the walls, metres */
   paint(m, 0.55F, 0.42F, 0.3F, 1, 0);
   put_box(m, -3, -t, -2.5F, 3, 0, 2.5F);
   paint(m, 0.8F, 0.8F, 0.78F, 1, 0);
@@ -75,7 +75,7 @@ static void put_walls(Mesh* m) {
   put_box(m, -3 - t, -t, -2.5F, -3, 3, 2.5F);
   paint(m, 0.75F, 0.2F, 0.12F, 1, 0);
   put_box(m, -3 - t, -t, -2.5F - t, 3 + t, 3, -2.5F);
-  /* The wall round the window. */
+  /* The wall around the window. */
   paint(m, 0.8F, 0.8F, 0.78F, 1, 0);
   put_box(m, 3, -t, -2.5F, 3 + t, 0.7F, 2.5F);
   put_box(m, 3, 2.5F, -2.5F, 3 + t, 3, 2.5F);

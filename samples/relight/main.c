@@ -161,8 +161,8 @@ static float dot3(const float a[3], const float b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/* Sets the rotation and translation of a view, whose three axes are rows. Columns follow each other, as in
- * OpenGL. */
+/* Sets the rotation and translation of a view. The three axes are the rows of the matrix, which is stored by
+ * columns, as in OpenGL. */
 static void view_of(const float right[3], const float up[3], const float back[3], const float eye[3],
                     float m[16]) {
   const float* const rows[3] = {right, up, back};

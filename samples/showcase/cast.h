@@ -9,20 +9,20 @@
 
 namespace showcase {
 
-// A posed character: its triangles in world space, and what Nook computes for its vertices.
+// A posed character: its triangles in world space, and the values that Nook computes for its vertices.
 struct PosedActor {
   Mesh mesh;
   std::vector<glm::vec3> directional_ao;  // the open share of each colour of the light, per vertex
 };
 
-// The sky as a probe at a place sees it past the walls, in lobes.
+// Returns the lobes of a probe of the sky at a place. The walls of the stage hide parts of the sky.
 std::vector<nook_lobe> probe_of_sky(const nook::Context& context, const Stage& stage,
                                     const glm::vec3& place_ws);
 // The probe that lights the props.
 std::vector<nook_lobe> stage_lobes(const nook::Context& context, const Stage& stage);
 glm::vec3 sky_radiance(const Sky& sky, const glm::vec3& direction);
 
-// The colours of the built-in character's clothes, by the place of a vertex in the rest pose.
+// Returns the colour of the built-in character's clothes at a vertex, by its position in the rest pose.
 glm::vec3 clothes(const glm::vec3& rest_m, const glm::vec3& shirt);
 
 class Cast {

@@ -1,4 +1,4 @@
-// Reads what the import of a bake does not keep: texture coordinates, textures, and props.
+// Reads data that a bake's import does not keep: texture coordinates, textures, and props.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace showcase {
 
-// The triangles of a prop, moved by `world_from_file`. Its texture is appended to `textures` unless an equal
-// one is there. Throws std::runtime_error with a text that names the file.
+// Returns the triangles of a prop, moved by `world_from_file`. Appends its texture to `textures` unless an
+// equal texture is already there. Throws std::runtime_error with a text that names the file.
 std::vector<Mesh> read_prop(const std::filesystem::path& glb, const glm::mat4& world_from_file,
                             std::vector<Texture>& textures);
 

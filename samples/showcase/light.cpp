@@ -12,7 +12,7 @@
 namespace showcase {
 namespace {
 
-// Above the rounding of positions in floats, below what a picture shows.
+// Larger than the rounding errors of positions in floats, and too small to be visible in a picture.
 constexpr float ray_offset_m = 2e-3f;
 
 struct Map {
@@ -42,7 +42,7 @@ float texel_solid_angle(const Map& map, std::uint32_t y) {
   return glm::two_pi<float>() / float(map.width) * (top - bottom);
 }
 
-// A disc whose irradiance on a surface that faces it is the stage's.
+// A disc that causes the stage's irradiance on a surface that faces it.
 Map sun_map(const Sky& sky) {
   const float edge = std::cos(glm::radians(0.5f * sky.sun_degrees));
   Map map = map_of(
@@ -153,7 +153,7 @@ void light_by_lobes(const Surfaces& surfaces, const std::vector<std::size_t>& pi
   for (std::size_t k = 0; k < pixels.size(); ++k) {
     const Pixel& pixel = surfaces.pixels[pixels[k]];
     out.off[pixels[k]] = open[k];
-    // What an engine's shader does with Nook's values.
+    // The shader of an engine does the same with Nook's values.
     out.nook[pixels[k]] = open[k] * (pixel.kind == Kind::actor ? pixel.directional_ao : pixel.screen_open);
   }
 }
@@ -177,7 +177,7 @@ std::vector<glm::vec3> averaged_on_surfaces(const Surfaces& surfaces, const std:
                     at_y = std::clamp(row + y * step, 0, height - 1);
           const auto i = std::size_t(at_y * width + at_x);
           const Pixel& other = surfaces.pixels[i];
-          // Samples count if they face the way of this one and lie near its plane.
+          // Uses samples whose normals are similar to this one's and which lie near its plane.
           const glm::vec3 between = other.position_ws - pixel.position_ws;
           const float off_plane = std::abs(glm::dot(between, pixel.normal_ws)),
                       alike = glm::dot(other.normal_ws, pixel.normal_ws);

@@ -1,6 +1,6 @@
-// Lights the surfaces of a stage three times: without occlusion, with Nook's, and with ray-traced occlusion.
-// The sun and its shadow are ray traced in all three, as the engine's part. Only the light of the sky
-// differs.
+// Lights the surfaces of a stage three times: without occlusion, with Nook's occlusion, and with ray-traced
+// occlusion. In all three, the sun and its shadow are ray traced, which stands in for the engine's own
+// shadows. Only the light of the sky differs.
 #pragma once
 
 #include <cstdint>

@@ -67,7 +67,7 @@ int parse(int argc, char** argv, Options& o) {
   }
 }
 
-// Averages the samples of each pixel and turns the rows around.
+// Averages the samples of each pixel, and reverses the order of the rows.
 platform::Image averaged(const std::vector<glm::vec3>& samples, const Options& o) {
   platform::Image image{o.width_px, o.height_px, 3, {}};
   const int n = o.samples_across;

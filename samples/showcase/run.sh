@@ -1,5 +1,6 @@
 #!/bin/sh
-# From a clone to the showcase: builds, fetches the characters and props, bakes, draws and puts the sheet together. It needs no display.
+# From a clone to the showcase: builds, fetches the characters and props, bakes, draws, and combines the pictures into one.
+# It needs no display.
 #   samples/showcase/run.sh                   out/showcase/showcase.webp
 #   samples/showcase/run.sh --mirrors FOLDER  reads the repositories from git directories named owner+name
 #   samples/showcase/run.sh street            the street corner, which needs no other file
@@ -33,7 +34,7 @@ else
   pictures=$out/yard
   samples/showcase/fetch.py "$out/assets" "$@"
   mkdir -p "$out/models"
-  # bake NAME MESH...: a character without these meshes, which yard.json leaves out as well.
+  # bake NAME MESH...: bakes a character without these meshes. yard.json leaves out the same meshes.
   bake() {
     name=$1
     shift

@@ -19,7 +19,8 @@ from animations import MAX_BYTES, label  # white words on a dark plate
 
 KINDS = (("off", "No occlusion"), ("nook", "Nook"), ("traced", "Ray traced"))
 SAMPLES_ACROSS = 4  # for the edges of split lines
-# Where the split lines cross the middle of the picture, in widths, and how far they lean, in heights.
+# Where the split lines cross the middle of the picture, as shares of its width, and how far they lean, as
+# shares of its height.
 SPLITS, LEAN = (0.335, 0.735), 0.12
 GAP = 6
 
@@ -29,7 +30,7 @@ def pictures(folder, shot):
 
 
 def named_with_errors(folder):
-    """The names of the pictures, with the mean squared error against the ray-traced one."""
+    """Returns the names of the pictures, with the mean squared error against the ray-traced picture."""
     errors = {row["picture"]: row["mse"] for row in json.loads((folder / "whole/report.json").read_text())["rows"]}
     return [f"{words}, mse {errors[kind]:.4f}" if kind in errors else words for kind, words in KINDS]
 
@@ -39,7 +40,8 @@ def split_x(split, y, size):
 
 
 def behind_lines(layers):
-    """Shows one layer left of the first line, the next between the lines, and the last right of them."""
+    """Shows the first layer left of the first line, the next one between the lines, and the last one right
+    of the second line."""
     size = layers[0].size
     large = tuple(SAMPLES_ACROSS * n for n in size)
     sheet = layers[0].copy()
@@ -55,12 +57,12 @@ def behind_lines(layers):
 
 
 def details(folder, shots, width):
-    """The shots beside each other, each three times."""
+    """Puts the shots beside each other, each three times."""
     tiles = [(picture, words) for shot in shots for picture, (_, words) in zip(pictures(folder, shot), KINDS)]
     tile_width = (width - GAP * (len(tiles) - 1)) // len(tiles)
     row = Image.new("RGB", (width, round(tile_width * tiles[0][0].height / tiles[0][0].width)), "white")
     for i, (picture, words) in enumerate(tiles):
-        # The last tile of a row takes the pixels that the division left over.
+        # The last tile of a row is wider by the remainder of the division.
         right = width if i + 1 == len(tiles) else i * (tile_width + GAP) + tile_width
         tile = picture.resize((right - i * (tile_width + GAP), row.height), Image.LANCZOS)
         label(tile, 6, 6, words, 18)

@@ -24,12 +24,12 @@ inline constexpr int no_texture = -1;
 struct Mesh {
   std::vector<glm::vec3> positions_ws, normals_ws;
   std::vector<glm::vec2> uvs;
-  std::vector<glm::vec3> colours;  // linear; multiplied with the texture
+  std::vector<glm::vec3> colours;  // linear; multiplied by the texture
   std::vector<std::uint32_t> triangles;
   int texture = no_texture;
 };
 
-// A box that the probes see as a wall: light from behind it does not reach them.
+// A box that acts as a wall for the probes: light from behind the box does not reach them.
 struct Wall {
   glm::vec3 low_ws, high_ws;
 };
@@ -44,7 +44,7 @@ struct Actor {
   glm::vec3 shirt{0.6f};  // for the built-in character, which has no texture
 };
 
-// A sky that is bluer above, brighter on the sun's side, and ground below the horizon.
+// A sky that is bluer towards the top and brighter on the sun's side, with ground below the horizon.
 struct Sky {
   glm::vec3 zenith, horizon, ground;
   float glow = 0;  // added radiance around the sun, a wide lobe
@@ -71,7 +71,7 @@ struct Stage {
 Stage read_stage(const std::filesystem::path& file, const std::filesystem::path& assets,
                  const std::filesystem::path& models);
 
-// Makes a street corner, which needs no file but the built-in character and its model.
+// Makes a street corner. It needs no files except the built-in character and its model.
 Stage street_corner(const std::filesystem::path& character, const std::filesystem::path& model);
 
 }  // namespace showcase

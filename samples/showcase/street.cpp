@@ -1,4 +1,4 @@
-// The stage that needs no file: a corner of a street, made of boxes and turned shapes.
+// A stage that needs no file: a corner of a street, made of boxes and surfaces of revolution.
 #include <cmath>
 #include <glm/gtc/constants.hpp>
 
@@ -37,7 +37,7 @@ void add_box(Mesh& mesh, const glm::vec3& low, const glm::vec3& high, const glm:
     }
 }
 
-// A ring of a turned shape: its height and its radius.
+// A ring of a surface of revolution: its height and its radius.
 struct Ring {
   float y_m, radius_m;
 };
@@ -74,7 +74,7 @@ void add_ball(Mesh& mesh, const glm::vec3& centre, float radius_m, const glm::ve
   add_turned(mesh, centre, rings, colour);
 }
 
-// A number from 0 to 1 that looks random, for the colours of slabs.
+// Returns a number from 0 to 1 that looks random, for the colours of slabs.
 float mixed(int x, int z) {
   const auto hash = std::uint32_t(x * 73856093) ^ std::uint32_t(z * 19349663);
   return float((hash * 2654435761u) >> 16) / 65536.0f;
@@ -101,7 +101,7 @@ Mesh house() {
   const float face = -1.5f, back = -2.1f, top = 4.2f;
   add_box(mesh, {-8, 0, back}, {0.35f, top, face}, plaster);
   add_box(mesh, {1.45f, 0, back}, {8, top, face}, plaster);
-  // Overlaps its neighbours, because edges that meet in the middle of another would leave gaps.
+  // Overlaps its neighbours. If an edge ended in the middle of another edge, there would be gaps.
   add_box(mesh, {0.30f, 2.25f, back}, {1.50f, top, face}, plaster);
   add_box(mesh, {0.35f, 0, back}, {1.45f, 2.25f, back + 0.22f}, paint);  // door
   for (const float x : {0.47f, 0.97f})

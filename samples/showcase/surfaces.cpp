@@ -33,7 +33,7 @@ void main() {
 }
 )";
 
-// Writes a number beside the position: 1 for props, and 2 or more for actors. The sky keeps 0.
+// Beside the position, the shader writes a number: 1 for props, 2 or more for actors. The sky keeps 0.
 const char* const fragment_glsl = R"(#version 330 core
 in vec3 position_ws;
 in vec3 normal_ws;
@@ -68,7 +68,7 @@ constexpr Format formats[target_count] = {
     {GL_RG8, GL_RG, GL_UNSIGNED_BYTE, GL_COLOR_ATTACHMENT4},
     {GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT, GL_DEPTH_ATTACHMENT}};
 
-// The objects of OpenGL that hold a frame.
+// The OpenGL objects of a frame.
 class Frame {
  public:
   Frame(const GladGLContext& gl, int width_px, int height_px)
@@ -123,7 +123,7 @@ class Frame {
   GLuint framebuffer_ = 0;
 };
 
-// Draws meshes one after another, through buffers that are filled for each.
+// Draws meshes one after another. Fills the same buffers again for each mesh.
 class MeshDrawer {
  public:
   MeshDrawer(const GladGLContext& gl, const Stage& stage)
@@ -150,7 +150,7 @@ class MeshDrawer {
     gl_.BindVertexArray(array_);
   }
 
-  // `open` has a value for each vertex, or is empty where nothing is occluded.
+  // `open` has a value for each vertex. If it is empty, nothing is occluded.
   void draw(const Mesh& mesh, const std::vector<glm::vec3>& open, float number) const {
     gl_.Uniform1f(program_.uniform("number"), number);
     gl_.ActiveTexture(GL_TEXTURE0);
@@ -224,7 +224,7 @@ std::vector<glm::vec4> nook_passes(platform::Context& context, const Stage& stag
   std::copy_n(glm::value_ptr(view_from_normal), 9, frame.normal_matrix);
   std::copy_n(glm::value_ptr(projection), 16, frame.projection);
   std::copy_n(glm::value_ptr(view), 16, frame.view);
-  // The vertices of actors have their occlusion already.
+  // The vertices of actors already have their occlusion.
   frame.gbuffer_ao = NOOK_GBUFFER_AO_EXCLUDE;
   frame.gbuffer_ao_texture = textures.textures[layer];
   nook_nnao_frame_desc screen_frame = nook::nnao_frame_desc();

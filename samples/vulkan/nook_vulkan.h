@@ -8,10 +8,10 @@
 #include <vulkan/vulkan.h>
 
 /* Your images, of the same size as your frames. Shaders read them without filtering. They must be in
- * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL when the pass runs. Images that your frames never use may be
- * VK_NULL_HANDLE; depth is bound instead. */
+ * VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL when the pass runs. If your frames never use an image, it may be
+ * VK_NULL_HANDLE; depth is bound in its place. */
 typedef struct nook_vulkan_inputs {
-  VkImageView depth; /* the aspect of depth alone; required */
+  VkImageView depth; /* only the aspect of depth; required */
   VkImageView normal, layer, motion;
 } nook_vulkan_inputs;
 

@@ -17,7 +17,7 @@ export class Chromium {
     this.process.stderr.on("data", (text) => (this.log = (this.log + text).slice(-20000)));
     this.gone = new Promise((resolve) => this.process.on("exit", resolve));
     this.waiting = new Map();
-    this.console = [];  // lines of the page that tell of an error or a warning
+    this.console = [];  // errors and warnings of the page
     this.last = 0;
     let rest = "";
     this.process.stdio[4].on("data", (bytes) => {
@@ -54,7 +54,7 @@ export class Chromium {
     return sent;
   }
 
-  // A page at the address, with a size in pixels.
+  // Opens the address in a page with this size in pixels.
   async open(url, width, height) {
     const { targetId } = await this.send("Target.createTarget", { url: "about:blank" }, undefined);
     this.session = (await this.send("Target.attachToTarget", { targetId, flatten: true }, undefined)).sessionId;
@@ -67,7 +67,7 @@ export class Chromium {
     return this.send("Emulation.setDeviceMetricsOverride", { width, height, deviceScaleFactor: 1, mobile: false });
   }
 
-  // The value of an expression in the page, promises awaited.
+  // Returns the value of an expression in the page. Waits for promises.
   async evaluate(expression) {
     const { result, exceptionDetails } = await this.send("Runtime.evaluate", { expression, awaitPromise: true, returnByValue: true });
     if (exceptionDetails) throw new Error(exceptionDetails.exception?.description ?? exceptionDetails.text);
@@ -88,7 +88,7 @@ export class Chromium {
   }
 
   async close() {
-    // Processes of Chromium that outlive the first one write into the profile for a while.
+    // Other processes of Chromium may outlive the first one for a while, and write into the profile.
     this.process.kill();
     await this.gone;
     await rm(this.profile, { recursive: true, force: true, maxRetries: 20, retryDelay: 100 });

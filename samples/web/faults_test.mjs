@@ -1,4 +1,5 @@
-// The page where files are missing, cut off or forbidden, in lost contexts, by keys and on a small screen: node faults_test.mjs SITE
+// Tests the page with missing, cut-off or forbidden files, in lost contexts, with keys and on a small screen: node
+// faults_test.mjs SITE
 import { readFileSync } from "node:fs";
 import { createServer } from "node:http";
 import { extname, join } from "node:path";
@@ -44,7 +45,7 @@ try {
     const sentence = await chromium.evaluate(said);
     expect(words.test(sentence), `${JSON.stringify(made)}: ${sentence}`);
   }
-  // Without any script of the page, the sentence of index.html stays.
+  // If no script of the page runs, the sentence of index.html stays.
   for (const made of [{ missing: "/start.js" }, { policy: "script-src 'none'" }]) {
     fault = made;
     await chromium.open(url, 640, 400);
@@ -74,7 +75,7 @@ try {
     const { most, error } = await chromium.evaluate("nookPage.checks.loss(1.3)");
     expect(most === 0 && error === 0, `loss ${i + 1}: the picture differs by ${most} of 255, WebGL error ${error}`);
   }
-  // Frames of a lost context are skipped, also where its event is still to come.
+  // Frames in a lost context are skipped, even before the event of the loss has arrived.
   const skipped = await chromium.evaluate(`(() => {
     const { page } = nookPage;
     page.webgl.getExtension("WEBGL_lose_context").loseContext();

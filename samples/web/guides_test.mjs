@@ -1,6 +1,7 @@
-// Follows docs/web.md's examples for bundlers and docs/engines/three.md by their own blocks, each in an empty folder:
+// Follows the examples for bundlers in docs/web.md, and docs/engines/three.md, each in an empty folder:
 //   node guides_test.mjs PACKAGE.tgz HERO.glb HERO.nook FOLDER_OF_THE_COMMAND_NOOK
-// A block whose line before is "`NAME`:", or begins so, is written to NAME; blocks of sh are run; the others explain. npm's registry must be in reach.
+// Uses the code blocks of these pages. If the line before a block begins with "`NAME`:", the block is written to the file NAME.
+// Blocks of sh are run. Other blocks are explanations and are skipped. The test needs npm's registry.
 import { spawn, spawnSync } from "node:child_process";
 import { copyFileSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -19,13 +20,13 @@ const expect = (right, text) => {
   failures += !right;
 };
 
-// The blocks of a page in order: { kind, name, text }.
+// Returns the code blocks of a page in order: { kind, name, text }.
 function blocksOf(markdown) {
   return [...markdown.matchAll(/(?:^(.*)\n\n)?^```(\w*)\n([\s\S]*?)^```$/gm)].map(([, before, kind, text]) =>
     ({ kind, name: /^`([\w./-]+)`.*:$/.exec(before ?? "")?.[1], text }));
 }
 
-// The lines that a reader writes.
+// Returns the lines that a reader has to write.
 const linesOf = (blocks) => blocks.filter(({ kind }) => kind !== "sh").flatMap(({ text }) => text.split("\n"))
   .filter((line) => line.trim() && !line.trim().startsWith("//")).length;
 
@@ -45,12 +46,12 @@ function emptyFolder(name) {
 }
 
 const chromium = new Chromium(width, height);
-// What a bundle computes without WebGL: the AO of a character's rest pose, as text.
+// Text that each bundle computes without WebGL: the sum of AO over a character's rest pose.
 const answer = "globalThis.answer = await fetch('character.nook').then((file) => file.arrayBuffer()).then((bytes) => { " +
   "const scene = nook.createScene(), id = scene.addInstance(nook.loadCharacter(bytes)); scene.setGround(id, [0, 1, 0, 0]); " +
   "scene.update(); return scene.readAo(id).reduce((sum, ao) => sum + ao, 0).toFixed(6); });\n";
 
-// One bundler by its section of docs/web.md. Returns the answer of its bundle.
+// Follows one bundler's section of docs/web.md. Returns the answer of its bundle.
 async function bundle(section) {
   const name = section.split("\n", 1)[0].trim(), folder = emptyFolder(name.replace(/\W/g, "_")), blocks = blocksOf(section);
   run(`npm init -y && npm pkg set type=module && npm install ./${basename(tarball)}`, folder);
@@ -73,7 +74,7 @@ async function bundle(section) {
   }
 }
 
-// The mean brightness of what the page shows, of 255.
+// Returns the mean brightness of the picture that the page shows, from 0 to 255.
 async function brightness() {
   const png = (await chromium.screenshot()).toString("base64");
   return chromium.evaluate(`(async () => {
@@ -92,10 +93,10 @@ const press = async () => {
   await frames(4);
 };
 
-// The page of three.js at an address: AO darkens it, and goes by the key.
+// Checks the three.js page at an address: AO must darken it, and the key must switch AO off.
 async function look(url, what) {
   await chromium.open(url, width, height);
-  // White before the first picture; and Vite's development server loads the page again when it has found all modules.
+  // The page is white before the first picture. Vite's development server loads the page again when it has found all modules.
   const end = Date.now() + 120000;
   for (let pictures = 0; pictures < 3; await new Promise((resolve) => setTimeout(resolve, 1000))) {
     pictures = await brightness().then((mean) => mean < 240, () => false) ? pictures + 1 : 0;
@@ -103,7 +104,7 @@ async function look(url, what) {
   }
   await frames(4);
   const bright = { on: 0, off: 0 };
-  // The character moves: three pictures each way, in turn.
+  // The character moves, so the test takes three pictures each with and without AO, in turn.
   for (let i = 0; i < 3; ++i) {
     bright.on += await brightness() / 3;
     await press();
@@ -113,7 +114,7 @@ async function look(url, what) {
   expect(bright.on < bright.off - 0.5 && bright.on > 60, `${what}: mean brightness ${bright.on.toFixed(2)} with AO, ${bright.off.toFixed(2)} without`);
 }
 
-// Starts a command that goes on, and waits for the address that it prints.
+// Starts a command that keeps running, and waits for the address that it prints.
 function start(command, folder) {
   const server = spawn("bash", ["-e", "-c", command], { cwd: folder, env: environment, detached: true, stdio: ["ignore", "pipe", "pipe"] });
   return new Promise((resolve, reject) => {

@@ -8,8 +8,8 @@ import { gzipSync } from "node:zlib";
 export const types = { ".html": "text/html", ".js": "text/javascript", ".mjs": "text/javascript", ".css": "text/css", ".json": "application/json",
   ".wasm": "application/wasm" };
 
-// The server listens on a port of its own where port is 0; the result has its address in `url`. With isCompressed it sends files
-// behind gzip, as servers on the internet do.
+// If `port` is 0, the server listens on a free port. The result has its address in `url`. With isCompressed, it sends files
+// compressed by gzip, as servers on the internet do.
 export async function serve(folder, port = 0, isCompressed = false) {
   const root = resolve(folder), compressed = new Map();
   const server = createServer((request, response) => {

@@ -13,7 +13,7 @@ const check = (name, value, holds, need) => {
   console.log(`${holds ? "  " : "! "}${name.padEnd(58)} ${typeof value === "number" ? Number(value.toPrecision(4)) : value}${need ? `   (need ${need})` : ""}`);
 };
 
-// What a visitor downloads without the models, as a server with compression sends it.
+// Returns how many bytes a visitor downloads without the models, from a server with compression.
 function downloadBytes(folder) {
   let sum = 0;
   for (const name of readdirSync(folder)) {
@@ -35,7 +35,7 @@ try {
   check("GL_VERSION", await chromium.evaluate("nookPage.page.renderer.ao.info.version"), true);
 
   const characters = await call("characters");
-  // 2e-3 is the bound between any two ways to evaluate a scene; the instruction sets of the CPU stay within 1.2e-4.
+  // 2e-3 is the bound between any two ways to evaluate a scene. Different instruction sets of the CPU differ by at most 1.2e-4.
   check("AO of WebGL against native, largest difference", characters.gpuNative, characters.gpuNative <= 2e-3, "<= 2e-3");
   check("AO of WebGL against the CPU in WebAssembly", characters.gpuCpu, characters.gpuCpu <= 2e-3, "<= 2e-3");
   check("AO of the CPU in WebAssembly against native", characters.cpuNative, characters.cpuNative <= 1.2e-4, "<= 1.2e-4");
@@ -46,7 +46,7 @@ try {
   check("screen pass: share of pixels within 1/255 of the reference", screen.share, screen.share >= 0.999, ">= 0.999");
   check("screen pass: mean AO", screen.mean, screen.mean > 0.3 && screen.mean < 0.99, "0.3 to 0.99");
   const picture = await call("picture");
-  // Two rasterisers cover other pixels at edges and round depth in other ways, hence the hundredth of pixels that may differ.
+  // Two rasterisers cover different pixels at edges, and round depth differently. So one pixel in a hundred may differ.
   check("picture against the native one: share within 2/255", picture.share, picture.share >= 0.99, ">= 0.99");
   check("picture against the native one: mean difference, of 255", picture.mean, picture.mean <= 0.5, "<= 0.5");
   check("picture: shades of red", picture.colours, picture.colours > 50, "> 50");
@@ -70,10 +70,10 @@ try {
     writeFileSync(join(results, `${name}.png`), await chromium.screenshot());
     if (name !== "error") continue;
     const mse = await call("error");
-    // Draft bakes of the mannequin have 2e-3 to 6e-3 on their own clips.
+    // For draft bakes of the mannequin, the error on their own clips is 2e-3 to 6e-3.
     check("error picture: mean squared error against ray tracing", mse, mse < 8e-3, "< 8e-3");
   }
-  // SwiftShader draws on the processor: the frames are small, so that there are many.
+  // SwiftShader draws on the CPU. The frames are small so that many of them are drawn.
   await chromium.size(width / 4, height / 4);
   const crowd = await call("frames", Math.min(5, seconds));
   check("50 characters: frames a second, SwiftShader", crowd.count / crowd.seconds, crowd.errors === 0, "no error");

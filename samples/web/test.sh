@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# Builds the package and the page, installs the package into an empty folder, and tests the page in Chromium without a window. Then it
-# follows docs/engines/three.md and the examples for bundlers in docs/web.md, and tests samples/hosts/three, which takes npm's registry.
+# Builds the package and the page, installs the package into an empty folder, and tests the page in Chromium without a
+# window. Then follows docs/engines/three.md and the examples for bundlers in docs/web.md, and tests samples/hosts/three.
+# These last steps need npm's registry.
 #   samples/web/test.sh [--quick] [FOLDER]     --quick: 5 s of frames in place of 60; FOLDER as for build.sh
 # Pictures and results.json go to FOLDER/test. The exit status is 0 if every check holds.
 set -euo pipefail
@@ -16,7 +17,7 @@ folder=$(cd "${1:-$root/build-web}" && pwd)
 build=${NOOK_BUILD_DIR:-$root/build}
 "$here/build.sh" "$folder"
 
-# A package that lacks a file works beside its sources alone, so it is installed elsewhere.
+# The package is installed elsewhere. If it lacked a file, it would still work next to its sources.
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 printf '{ "private": true, "type": "module" }\n' > "$scratch/package.json"
@@ -32,7 +33,7 @@ mkdir -p "$folder/test"
 node "$here/test.mjs" "$folder/site" "$folder/test" "$seconds"
 node "$here/faults_test.mjs" "$folder/site"
 
-# These need npm's registry: axe-core, and what the guides of docs/ name.
+# These tests need npm's registry, for axe-core and for the packages that the guides of docs/ use.
 if ! (cd "$scratch" && npm install --silent --no-audit --no-fund --no-package-lock --no-save axe-core@4); then
   echo "samples/web/test.sh: npm cannot install axe-core@4 from $(npm config get registry). NOT TESTED: axe-core's findings, the first" >&2
   echo "picture on a slow line, four bundlers, three.js from an empty folder, the page of samples/hosts/three. Everything before has passed." >&2
@@ -41,7 +42,7 @@ fi
 node "$here/visit_test.mjs" "$folder/site" "$scratch/node_modules/axe-core/axe.min.js"
 node "$here/guides_test.mjs" "$folder"/nook-web-*.tgz "$folder/models/mannequin.glb" "$folder/models/mannequin.nook" "$build/bakers/tool"
 
-# The page of samples/hosts/three, with the same package and bake.
+# The page of samples/hosts/three uses the same package and bake.
 mkdir -p "$folder/three/site/data"
 cp "$folder/models/mannequin.glb" "$folder/three/site/data/character.glb"
 cp "$folder/models/mannequin.nook" "$folder/three/site/data/character.nook"

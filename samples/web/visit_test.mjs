@@ -1,4 +1,5 @@
-// What a visitor of the page meets: the first picture on a slow line, and what axe-core finds, on a desktop and on a phone.
+// Tests what visitors of the page experience: the time of the first picture on a slow line, and the findings of axe-core, on a
+// desktop and on a phone.
 //   node visit_test.mjs SITE AXE_SOURCE
 import { readFileSync } from "node:fs";
 import { Chromium } from "./chromium.mjs";
@@ -14,7 +15,7 @@ const expect = (right, text) => {
 const { server, url } = await serve(site, 0, true);
 const ready = "!!window.nookPage || document.getElementById('message')?.classList.contains('error')";
 
-// A first visit: seconds until the first picture, and the bytes that came before it.
+// Visits the page for the first time. Returns the seconds until the first picture, and the bytes that came before it.
 async function visit() {
   const chromium = new Chromium(640, 360);
   try {
@@ -41,7 +42,7 @@ async function visit() {
   }
 }
 
-// The findings of axe-core that hinder people: serious and critical ones.
+// Reports the findings of axe-core that hinder people: serious and critical ones.
 async function findings(chromium, what) {
   await chromium.evaluate(`${readFileSync(axe, "utf8")}; 0`);
   const found = await chromium.evaluate("axe.run().then(({ violations, passes }) => ({ passes: passes.length, serious: violations.filter(({ impact }) => " +
@@ -53,7 +54,7 @@ async function findings(chromium, what) {
 
 const chromium = new Chromium(1024, 576);
 try {
-  // Other programs may hold up the processor, so that the best of three counts.
+  // Other programs may slow down the processor, so the best of three visits counts.
   const visits = [];
   do visits.push(await visit());
   while (visits.length < 3 && Math.min(...visits.map(({ seconds }) => seconds)) > 8);

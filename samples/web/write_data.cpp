@@ -1,5 +1,5 @@
-// Writes what the page needs beside the .nook file of a character: geometry, clips as matrices, ray-traced
-// ambient occlusion of one pose of each clip, and the native library's AO of two linked instances.
+// Writes the data that the page needs in addition to a character's .nook file: geometry, clips as matrices,
+// ray-traced ambient occlusion of one pose of each clip, and the native library's AO of two linked instances.
 //
 //   web_data CHARACTER.glb CHARACTER.nook FOLDER
 //
@@ -25,9 +25,9 @@
 namespace {
 
 constexpr float frames_per_second = 30;
-constexpr std::uint32_t reference_rays = 512;  // a noise of 0.02 at most, a tenth of the colour scale's end
+constexpr std::uint32_t reference_rays = 512;  // noise of at most 0.02, a tenth of the colour scale's end
 constexpr float floor_half_size_m = 40;
-// The second instance of the expected values stands there, turned by half a turn.
+// The position of the second instance of the expected values, which is turned by 180 degrees.
 constexpr float neighbour_x_m = 0.45f, neighbour_z_m = 0.3f;
 
 [[noreturn]] void fail(const std::string& text) {
@@ -48,7 +48,7 @@ std::vector<char> read_file(const std::string& path) {
   return {std::istreambuf_iterator<char>(file), {}};
 }
 
-// Arrays one after another, and their places.
+// Stores arrays one after another, and remembers where each of them begins.
 class Arrays {
  public:
   template <class T>
@@ -119,7 +119,7 @@ void add_geometry(const Character& character, Arrays& arrays) {
   arrays.add("indices", triangles_of(character));
 }
 
-// The body in a pose, above a floor of two triangles, by ray tracing.
+// Traces rays to compute the AO of the body in a pose, above a floor of two triangles.
 std::vector<float> trace(const Character& character, const std::vector<float>& bones) {
   const std::uint32_t count = character.info.file_vertex_count;
   std::vector<float> positions(3 * count), normals(3 * count), ao(count);

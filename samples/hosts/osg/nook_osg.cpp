@@ -23,7 +23,7 @@ struct NookOsg::Binder : osg::Drawable::DrawCallback {
   }
 };
 
-// Makes what needs an OpenGL context, and evaluates the vertices before anything draws them.
+// Creates what needs an OpenGL context, and evaluates the vertices before anything draws them.
 struct NookOsg::Update : osg::Camera::DrawCallback {
   NookOsg& nook;
   explicit Update(NookOsg& owner) : nook(owner) {}

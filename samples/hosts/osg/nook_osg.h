@@ -7,8 +7,8 @@
 #include <osg/Geometry>
 #include <osg/Texture2D>
 
-// A callback of the camera that draws depth before the other cameras. The callback runs the passes
-// afterwards. All OpenGL calls happen in the draw traversal, on its thread.
+// A callback of the camera that draws depth, which must come before the other cameras. The callback runs the
+// passes after this camera has drawn. All OpenGL calls happen in the draw traversal, on its thread.
 class NookOsg : public osg::Camera::DrawCallback {
  public:
   // The AO of the vertices reaches the shaders in this attribute.

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# Makes the folder that the page is served from: the page, three.js and nook-web from npm, and the built-in character with its bake.
+# Makes the folder of the page: its own files, three.js and nook-web from npm, and the built-in character with its bake.
 #   samples/hosts/three/build.sh [FOLDER]     FOLDER (default: build-three) takes FOLDER/site
-# NOOK_BUILD_DIR (default: build) is a build of the tree with the targets nook_tool and mannequin, NOOK_WEB_DIR (default: build-web)
-# the folder of packaging/web/build.sh, which is run if it has no package.
+# NOOK_BUILD_DIR (default: build) is a build of this repository with the targets nook_tool and mannequin. NOOK_WEB_DIR
+# (default: build-web) is the folder of packaging/web/build.sh, which is run if the folder does not have a package yet.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 root=$(cd "$here/../../.." && pwd)

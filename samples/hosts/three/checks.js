@@ -1,4 +1,4 @@
-// What test.mjs calls in the browser.
+// The functions that test.mjs calls in the browser.
 import * as THREE from "three";
 import { shuffle } from "./shuffle.js";
 
@@ -32,16 +32,16 @@ export function makeChecks(page) {
     webgl.bindBuffer(webgl.COPY_READ_BUFFER, null);
     return values;
   }
-  // The colour that the scene's passes made, before the OutputPass: linear, of half floats.
+  // Returns the colour before the OutputPass, linear and in half floats.
   function linearColour() {
     const { width, height } = composer.writeBuffer;
     const halves = new Uint16Array(4 * width * height);
     renderer.readRenderTargetPixels(composer.writeBuffer, 0, 0, width, height, halves);
     return Float32Array.from(halves, THREE.DataUtils.fromHalfFloat);
   }
-  // The order of the vertices of meshes that are shuffled.
+  // The vertex orders of the meshes that were shuffled.
   const orders = new Map();
-  // The second half of a mesh's triangles goes to a mesh of its own, on the same skeleton.
+  // Moves the second half of a mesh's triangles to a new mesh on the same skeleton.
   function split({ meshes }) {
     const [mesh] = meshes, part = mesh.clone(false);
     mesh.parent.add(part);
@@ -57,8 +57,8 @@ export function makeChecks(page) {
   return {
     error: () => webgl.getError(),
 
-    // Pictures of three.js alone, and with Nook at work whose AO no material reads: they must be equal. The last character has
-    // its vertices in another order than the file, the second one has two meshes.
+    // Draws pictures with three.js alone, and while Nook runs but no material reads its AO. They must be equal. The last
+    // character has its vertices in another order than the file, and the second character has two meshes.
     async plain() {
       orders.set(actors[2].meshes[0], shuffle(actors[2].meshes[0]));
       split(actors[1]);
@@ -77,8 +77,8 @@ export function makeChecks(page) {
       };
     },
 
-    // AO of the attributes against the CPU, for all characters at some times, in the order of the file; and whether the vertices
-    // that three.js skins are where Nook has them.
+    // Compares the AO attributes with AO from the CPU, for all characters at several times, in the order of the file. Also
+    // checks that Nook has the vertices at the positions to which three.js skins them.
     characters() {
       const { host, model } = nook;
       const result = { difference: 0, least: 1, mean: 0, poses: [], vertices: 0 };
@@ -113,8 +113,8 @@ export function makeChecks(page) {
       return result;
     },
 
-    // In ambient light alone the picture with AO over the one without is the AO of each pixel. In the whole light, pixels of low
-    // AO darken and open ones stay.
+    // Under ambient light alone, the picture with AO divided by the picture without AO is the AO of each pixel. Under the whole
+    // light, pixels with low AO must darken, and open pixels must stay the same.
     darkening() {
       const { sky, sun } = page;
       picture(0, false);
@@ -142,7 +142,7 @@ export function makeChecks(page) {
       };
     },
 
-    // The pass multiplies the colour by its AO, and by nothing where there is sky.
+    // The pass must multiply the colour by its AO, and must not change the sky.
     screen() {
       picture(1, false);
       const before = linearColour();
@@ -168,7 +168,7 @@ export function makeChecks(page) {
       return { most, mean, changed: changed / (width * height), skyKept: largest(before.slice(-4 * width), after.slice(-4 * width)) };
     },
 
-    // Another size of the canvas, and the first one again.
+    // Changes the size of the canvas and restores it.
     resize() {
       const before = picture(1, true), { width, height } = renderer.domElement;
       for (const [w, h] of [[width + 120, height - 50], [width, height]]) {
@@ -179,7 +179,7 @@ export function makeChecks(page) {
       return { most: largest(before, picture(1, true)) };
     },
 
-    // Messages of a mesh that the model does not have, and of a composer without a depth texture.
+    // Returns the messages for a mesh that the model does not have, and for a composer without a depth texture.
     faults() {
       const textOf = (call) => {
         try {
@@ -193,7 +193,7 @@ export function makeChecks(page) {
         textOf(() => nook.pass.render(renderer, null, { width: 8, height: 8, texture: null, depthTexture: null }))];
     },
 
-    // The picture before a loss of the context and after it came back.
+    // Compares the picture before the context is lost with the picture after it is restored.
     async loss() {
       const before = picture(1, true);
       const extension = webgl.getExtension("WEBGL_lose_context");
@@ -208,8 +208,8 @@ export function makeChecks(page) {
       return { most: largest(before, picture(1, true)) };
     },
 
-    // Frames in a lost context are skipped without an error; a character that is removed looks as without Nook, and comes back;
-    // options of the pass reach it.
+    // Frames in a lost context must be skipped without an error. A removed character must look as it does without Nook, and
+    // must have AO again when it is added again. Options must reach the pass.
     async life() {
       const { host, model, pass } = nook;
       const before = picture(1, true);
@@ -238,7 +238,7 @@ export function makeChecks(page) {
       const same = largest(before, picture(1, true));
       return { restored, isOwn, removed, added, best, taps, same };
     },
-    // The last check: nothing of Nook is left.
+    // The last check: none of Nook's objects may be left.
     end() {
       nook.pass.dispose();
       nook.pass.enabled = false;
@@ -248,7 +248,7 @@ export function makeChecks(page) {
       return { objects: gl.objectCount, characters: nook.host.characters.length };
     },
 
-    // Two pictures side by side as the bytes of a PNG file in base64: without AO, and with both kinds.
+    // Returns two pictures side by side as the bytes of a PNG file in base64: one without AO, and one with both kinds of AO.
     pair() {
       const { width, height } = renderer.domElement;
       const canvas = Object.assign(document.createElement("canvas"), { width: 2 * width, height });

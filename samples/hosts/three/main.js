@@ -1,4 +1,4 @@
-// The page: three characters of three.js on a ground, with AO from Nook. What ties Nook in is nook_three.js.
+// The page: three characters of three.js on a ground, with AO from Nook. nook_three.js connects three.js and Nook.
 import { load } from "nook-web";
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
@@ -12,7 +12,7 @@ import { NookPass, NookThree } from "./nook_three.js";
 const cast = [{ clip: "Sit", at: [-0.85, 0, 0], turn: 0.5 }, { clip: "Dance", at: [0, 0, -0.15], turn: 0 },
   { clip: "Crouch", at: [0.8, 0, 0.1], turn: -0.6 }];
 
-// What a page of three.js has anyway.
+// Code that the page would also have without Nook.
 const renderer = new THREE.WebGLRenderer();
 renderer.setSize(innerWidth, innerHeight);
 renderer.shadowMap.enabled = true;

@@ -1,4 +1,5 @@
-// How many vertices NookThree matches wrongly, in what the GLTFLoader makes of a character. match_test.mjs calls it in the browser.
+// Counts the vertices that NookThree matches wrongly, in a character that the GLTFLoader has loaded. match_test.mjs calls it in
+// the browser.
 import { load } from "nook-web";
 import * as THREE from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
@@ -7,7 +8,8 @@ import { shuffle } from "./shuffle.js";
 
 const nook = await load(), renderer = new THREE.WebGLRenderer(), host = new NookThree(nook, renderer);
 
-// The first vertex in the model of each primitive of the file, by "mesh/primitive": the model has them node after node.
+// Returns the first vertex in the model of each primitive of the file, by "mesh/primitive". In the model, primitives are in the
+// order of the nodes.
 function firstVertices(json, model) {
   const first = new Map();
   let count = 0;
@@ -20,7 +22,8 @@ function firstVertices(json, model) {
   return first;
 }
 
-// Poses in which vertices of other weights have other AO: each bone is turned and moved by itself.
+// Returns a pose in which vertices with different weights have different AO, because each bone is turned and moved
+// independently.
 function pose(boneCount, seed) {
   const random = () => (seed = (seed * 48271) % 2147483647) / 2147483647 - 0.5;
   const matrix = new THREE.Matrix4(), transforms = [];
@@ -31,8 +34,8 @@ function pose(boneCount, seed) {
   return { layout: "rows-3x4", transforms };
 }
 
-// Matches with the vertices in the loader's order, or shuffled. The match is wrong where the AO differs from the AO of the right
-// vertex in any of four poses: { vertices, wrong, ambiguous, most }; most is the largest difference.
+// Matches the vertices in the loader's order, or shuffled. A match is wrong if its AO differs from the right vertex's AO in any
+// of four poses. Returns { vertices, wrong, ambiguous, most }; most is the largest difference.
 export async function measure(name, isShuffled) {
   const gltf = await new GLTFLoader().loadAsync(`match/${name}.glb`);
   const model = nook.loadCharacter(await (await fetch(`match/${name}.nook`)).arrayBuffer());
@@ -62,7 +65,7 @@ export async function measure(name, isShuffled) {
   model.destroy();
   return {
     vertices: expected.length,
-    // The same vertex has the same AO but for rounding.
+    // Equal vertices have equal AO, except for rounding.
     wrong: difference.reduce((sum, value) => sum + (value > 1e-5), 0),
     ambiguous: says.reduce((sum, text) => sum + Number(/(\d+) of \d+ vertices fit several/.exec(text)[1]), 0),
     most: difference.reduce((a, b) => Math.max(a, b), 0),

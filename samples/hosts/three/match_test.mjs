@@ -1,5 +1,7 @@
-// Vertices of characters that three.js's GLTFLoader makes, matched as NookThree does: node match_test.mjs SITE FOLDER NOOK
-// FOLDER has the characters, as .glb files. NOOK is the command, which bakes them in few steps, as matches need no good AO.
+// Checks how NookThree matches the vertices of characters that three.js's GLTFLoader has loaded:
+//   node match_test.mjs SITE FOLDER NOOK
+// FOLDER contains the characters as .glb files. NOOK is the command `nook`. It bakes them in few steps, because matching does
+// not need accurate AO.
 import { spawnSync } from "node:child_process";
 import { copyFileSync, existsSync, mkdirSync, readdirSync } from "node:fs";
 import { join } from "node:path";

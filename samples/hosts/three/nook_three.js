@@ -2,7 +2,7 @@
 import { BufferGeometry, GLBufferAttribute, Matrix4, ShaderChunk } from "three";
 import { Pass } from "three/addons/postprocessing/Pass.js";
 
-// A copy of the material whose ambient light is multiplied by Nook's AO, where three.js multiplies it by an aoMap.
+// Returns a copy of the material that multiplies ambient light by Nook's AO, where three.js would multiply it by an aoMap.
 function occluded(material, share) {
   const ambient = ShaderChunk.aomap_fragment.replace("#ifdef USE_AOMAP", "#if 1")
     .replace(/float ambientOcclusion =[^;]*;/, "float ambientOcclusion = mix(1.0, saturate(vNookAo), nookShare);");
@@ -17,15 +17,16 @@ function occluded(material, share) {
   return copy;
 }
 
-// The numbers of an attribute of a mesh; undefined if it has none.
+// Returns the numbers of a mesh's attribute, or undefined if the mesh does not have it.
 function values({ geometry: { attributes } }, name) {
   const from = attributes[name];
   return from && Array.from({ length: from.count * from.itemSize }, (_, i) => from.getComponent(Math.floor(i / from.itemSize), i % from.itemSize));
 }
 
-// The vertices of a mesh in the model: in the primitive of the file that has them all, as the GLTFLoader makes a mesh of each; otherwise
-// in any. Joints and weights tell vertices apart where meshes meet; they are of the only skin, or of the one with as many joints. Triangles tell
-// the two sides of a sharp fold apart.
+// Finds the vertices of a mesh in the model. The GLTFLoader makes one mesh for each primitive of the file, so this looks for a
+// primitive that has all of the vertices. If there is none, it searches all primitives. Where meshes meet, joints and weights
+// distinguish vertices. They refer to the only skin that has as many joints as the mesh. Triangles distinguish the two sides of
+// a sharp fold.
 function matchMesh(model, mesh, taken) {
   const { count } = mesh.geometry.attributes.position, { primitiveCount, skinCount } = model.info;
   const skins = Array.from({ length: skinCount }, (_, i) => model.skin(i)).filter(({ jointCount }) => jointCount === mesh.skeleton?.bones.length);
@@ -42,7 +43,8 @@ function matchMesh(model, mesh, taken) {
   return model.matchVertices(match);
 }
 
-// One for each WebGLRenderer. `scene` is Nook's own, for links, ground and occluders; share.value is the share of AO in use.
+// Create one for each WebGLRenderer. `scene` is Nook's scene, for links, ground and occluders. share.value is how much of the
+// AO is used, from 0 to 1.
 export class NookThree {
   share = { value: 1 };
   characters = [];
@@ -52,7 +54,7 @@ export class NookThree {
     this.gl = null;
   };
   #adopt = () => {
-    // A loss that comes while another one is restored ends in another event.
+    // If the context is lost again while it is being restored, another event follows.
     if (this.webgl.isContextLost()) return;
     this.gl = this.nook.createGl(this.webgl);
     this.characters.forEach(({ parts }) => parts.forEach((part) => this.#makeBuffer(part)));
@@ -65,7 +67,7 @@ export class NookThree {
     renderer.domElement.addEventListener("webglcontextrestored", this.#adopt);
   }
 
-  // False in a lost context: frames are skipped until it is back.
+  // False while the context is lost. Frames are then skipped.
   get isAlive() {
     return this.gl !== null && !this.webgl.isContextLost();
   }
@@ -76,8 +78,8 @@ export class NookThree {
     this.webgl.bufferData(this.webgl.ARRAY_BUFFER, new Float32Array(attribute.count).fill(1), this.webgl.DYNAMIC_COPY);
   }
 
-  // Gives the skinned meshes of one character AO; they share a skeleton, and model is the bake of their file. The result's
-  // `instance` is the character's number in `scene`.
+  // Gives AO to the skinned meshes of one character. The meshes must share a skeleton, and `model` is the bake of their file.
+  // The result's `instance` is the character's number in `scene`.
   add(model, ...meshes) {
     if (!meshes.length || meshes.some((mesh) => !mesh?.geometry?.attributes?.position))
       throw new Error("NookThree.add: give the model, then the skinned meshes of one character");
@@ -106,7 +108,7 @@ export class NookThree {
     return this.characters[this.characters.push(character) - 1];
   }
 
-  // Takes a character of add() out: its meshes have their own geometry and materials again.
+  // Removes a character that add() returned. Its meshes get their own geometry and materials back.
   remove(character) {
     const at = this.characters.indexOf(character);
     if (at < 0) throw new Error("NookThree.remove: this character is not in the host; pass the result of add()");
@@ -114,14 +116,14 @@ export class NookThree {
     this.scene.removeInstance(character.instance);
     for (const { mesh, before, attribute } of character.parts) {
       for (const material of [mesh.material].flat()) material.dispose();
-      // The copy shares all but the AO with the geometry before, whose buffers three.js keeps in use.
+      // The copy shares everything except the AO with the old geometry, whose buffers three.js still uses.
       mesh.geometry.deleteAttribute("nookAo");
       Object.assign(mesh, before);
       if (this.isAlive) this.webgl.deleteBuffer(attribute.buffer);
     }
     this.renderer.resetState();
   }
-  // Removes all characters, and releases the scene and what lives in the renderer's context. Dispose the passes before.
+  // Removes all characters, and releases the scene and everything in the renderer's context. Dispose of the passes first.
   dispose() {
     while (this.characters.length) this.remove(this.characters.at(-1));
     this.renderer.domElement.removeEventListener("webglcontextlost", this.#lose);
@@ -131,7 +133,7 @@ export class NookThree {
     this.scene.destroy();
   }
 
-  // The pose of a character as Nook takes it: the matrices that three.js skins with, to the world. three.js makes boneMatrices
+  // Returns a character's pose for Nook: the matrices with which three.js skins, to world space. three.js makes boneMatrices
   // longer than the bones need, so that they fill a texture.
   pose({ mesh, transforms }) {
     /* [pose] */
@@ -143,7 +145,7 @@ export class NookThree {
     /* [end] */
   }
 
-  // Once a frame, when the animations have moved and before the renderer draws.
+  // Call this once per frame, after the animations have moved and before the renderer draws.
   update(scene) {
     if (!this.isAlive) return;
     const { gl, webgl } = this;
@@ -164,16 +166,17 @@ export class NookThree {
   }
 }
 
-// Stands after the RenderPass. The composer's render target needs a depthTexture; the pass multiplies its colour. frame: what changes
-// from frame to frame, such as radius and intensity. options: what the pass is made with: preset, taps, blur, halfResolution,
-// maxHistoryFrames and others of createNnao; set `options` anew to change them.
+// Add this pass after the RenderPass. The composer's render target needs a depthTexture; the pass multiplies the target's
+// colour. `frame` has values that may change in each frame, such as radius and intensity. `options` has the values with which
+// the pass is created: preset, taps, blur, halfResolution, maxHistoryFrames and others of createNnao. To change them, assign a
+// new object to `options`.
 export class NookPass extends Pass {
   needsSwap = false;
   constructor(host, camera, frame = {}, options = {}) {
     super();
     Object.assign(this, { host, camera, frame, options, nnao: null });
   }
-  // The WebGLTexture of a texture or a render target of three.js.
+  // Returns the WebGLTexture of a texture of three.js.
   #webglOf(renderer, of, what) {
     if (!of?.isTexture) throw new Error(`NookPass: ${what} needs a THREE.Texture (got ${of?.constructor?.name ?? of})`);
     const { __webglTexture: texture } = renderer.properties.get(of);
@@ -184,7 +187,7 @@ export class NookPass extends Pass {
     if (!this.host.isAlive) return;
     const { gl } = this.host, { camera, options } = this;
     if (!depthTexture) throw new Error("NookPass: the composer's render target has no depthTexture; give EffectComposer a render target with a depthTexture");
-    // Textures of the host may be three.js's own, such as a normalTexture.
+    // Textures in `frame` may be textures of three.js, such as a normalTexture.
     const frame = { ...this.frame };
     for (const [name, value] of Object.entries(frame)) if (value?.isTexture) frame[name] = this.#webglOf(renderer, value, name);
     if (renderer.capabilities.logarithmicDepthBuffer && frame.depthKind === undefined)

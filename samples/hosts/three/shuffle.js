@@ -1,7 +1,8 @@
-// Another order of the vertices of a mesh, as tools that optimise meshes give it.
+// Changes the order of a mesh's vertices, as tools that optimise meshes do.
 import { BufferGeometry } from "three";
 
-// Gives the mesh a geometry with its vertices in a random order. Vertex i of it is vertex order[i] of the old one; returns order.
+// Gives the mesh a geometry with its vertices in a random order. Vertex i of the new geometry is vertex order[i] of the old
+// one. Returns `order`.
 export function shuffle(mesh) {
   const { attributes, index } = mesh.geometry;
   const { count } = attributes.position;

@@ -40,12 +40,12 @@ try {
 
   const dark = await run("darkening");
   expect(dark.outside === 0, `no pixel grows brighter: ${dark.outside}`);
-  // Ambient light is more than half of the light, so that half of it gone takes more than a tenth of the picture's.
+  // More than half of the light is ambient. So if half of the ambient light is gone, more than a tenth of all light is gone.
   expect(dark.low > 100 && dark.lowShare < 0.9, `${dark.low} pixels of AO below 0.5 keep ${dark.lowShare.toFixed(3)} of their light`);
   expect(dark.openShare > 0.97, `${dark.open} pixels of AO above 0.97 keep ${dark.openShare.toFixed(4)}`);
 
   const screen = await run("screen");
-  // Colours reach 2: a half float there has steps of 2^-10, and the AO that is compared has 8 bits.
+  // Colours reach 2. At 2, a half float has steps of 2^-10, and the AO in the comparison has 8 bits.
   expect(screen.most <= 2 ** -10 + 2 / 255, `the pass multiplies colour by its AO: ${screen.most.toExponential(2)}`);
   expect(screen.skyKept === 0, `the sky stays: ${screen.skyKept}`);
   expect(screen.mean < 0.99 && screen.changed > 0.05, `mean AO ${screen.mean.toFixed(3)}, ${(100 * screen.changed).toFixed(0)} % of pixels change`);

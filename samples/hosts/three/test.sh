@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The page in Chromium without a window: builds it by build.sh, whose arguments these are, and runs test.mjs. Then it matches the
-# vertices of shared characters (match_test.mjs), which are in NOOK_ASSETS/characters.
+# Tests the page in Chromium without a window. Builds it with build.sh, which gets this script's arguments, and runs
+# test.mjs. Then runs match_test.mjs, which matches the vertices of the shared characters in NOOK_ASSETS/characters.
 #   samples/hosts/three/test.sh [FOLDER]
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -11,5 +11,5 @@ characters=${NOOK_ASSETS:-$here/../../../../shared/assets}/characters
 if [ -d "$characters" ]; then
   node "$here/match_test.mjs" "$folder/site" "$characters" "${NOOK_BUILD_DIR:-$here/../../../build}/bakers/tool/nook"
 else
-  echo "skipped: the matches of shared characters, as there is no folder $characters; set NOOK_ASSETS" >&2
+  echo "skipped: the matches of shared characters, because the folder $characters does not exist; set NOOK_ASSETS" >&2
 fi

@@ -2,8 +2,8 @@
 //
 //   nook_host_vtk CHARACTER.glb MODEL.nook --out PICTURE.png [--path none|gpu|vtk|traced] [--orthographic]
 //
-// With --path traced and --show ao the picture has ray-traced AO at the vertices. nook_vtk.cpp is all that a
-// VTK program needs. The model is not read: this host has the AO of the screen only.
+// With --path traced and --show ao, the picture has ray-traced AO at the vertices. nook_vtk.cpp is all that a
+// VTK program needs. The model is not read, because this host only has screen-space AO.
 #include <nook/experimental/nook_trace.h>
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -65,7 +65,7 @@ Surface floor_of(const hosts::Scene& scene) {
   return floor;
 }
 
-// The reference of the passes: rays from every vertex, up to the same radius.
+// Computes the reference for the passes, with rays from every vertex up to the same radius.
 void trace_ao(std::vector<Surface>& surfaces, float radius_m) {
   std::vector<nook_bake_occluder_mesh> meshes;
   for (const Surface& s : surfaces)
@@ -119,7 +119,10 @@ vtkNew<vtkActor> actor_of(const Surface& surface, const hosts::Options& o) {
   const bool shows_ao = o.show == "ao";
   const glm::vec3 colour = shows_ao ? glm::vec3(1) : surface.colour;
   look->SetColor(double(colour.r), double(colour.g), double(colour.b));
-  look->SetAmbient(shows_ao ? 1 : o.show == "plain" ? 0 : 0.6);  // plain has nothing that AO darkens
+  look->SetAmbient(shows_ao            ? 1
+                   : o.show == "plain" ? 0
+                                       : 0.6);  // plain has no ambient light, which is what
+                                                // AO darkens
   look->SetDiffuse(shows_ao ? 0 : 0.4);
   return actor;
 }

@@ -1,8 +1,8 @@
-// The state of the page in its address, so that a link keeps what you see.
+// Stores the state of the page in its address, so that a link keeps what you see.
 
 const switches = new Map([["true", true], ["1", true], ["on", true], ["false", false], ["0", false], ["off", false]]);
 
-// The number nearest to `value` that the limits allow.
+// Returns the number nearest to `value` that the limits allow.
 function clamp(value, { min, max, step, wraps }) {
   const near = wraps ? ((value % max) + max) % max : step ? min + Math.round((value - min) / step) * step : value;
   return Number(Math.min(max, Math.max(min, near)).toFixed(6));
@@ -12,8 +12,8 @@ function numberOf(text) {
   return Number.isFinite(value) ? value : null;
 }
 
-// Takes the members of `state` that the address has. limits: { min, max, step } of numbers and { choices } of words. Numbers outside
-// of their limits are clamped, and what is not understood is left out.
+// Reads members of `state` from the address. `limits` has { min, max, step } for numbers and { choices } for words. Numbers
+// outside of their limits are clamped. Values that are not understood are ignored.
 export function readAddress(search, state, limits) {
   for (const [name, text] of new URLSearchParams(search)) {
     if (!Object.hasOwn(state, name)) continue;
@@ -31,7 +31,8 @@ export function readAddress(search, state, limits) {
   }
 }
 
-// The address's query for a state: members that differ from `initial`, after what the query has beside them.
+// Returns the address's query for a state: the members that differ from `initial`, in addition to other parameters of the
+// query.
 export function writeAddress(search, state, initial) {
   const query = new URLSearchParams(search);
   for (const [name, value] of Object.entries(state)) {
@@ -42,7 +43,7 @@ export function writeAddress(search, state, initial) {
   return text && `?${text}`;
 }
 
-// A time in seconds at which the picture stands, or null.
+// Returns the time in seconds at which the picture stands still, or null.
 export function readTime(search) {
   const text = new URLSearchParams(search).get("time");
   return text === null ? null : numberOf(text);

@@ -1,13 +1,14 @@
-// The baked data: geometry and clips of the character, and its .nook file.
+// The baked data of the character: its geometry, its clips and its .nook file.
 const types = { float32: Float32Array, uint32: Uint32Array, uint16: Uint16Array, uint8: Uint8Array };
 
-// The bytes of a file; progress(received, all) is told as they come, all 0 where the server does not say it.
+// Returns the bytes of a file. Calls progress(received, all) while they arrive; `all` is 0 if the server does not say how many
+// there are.
 export async function fetchBytes(url, progress = () => {}) {
   const response = await globalThis.nookFetch(url).catch((error) => {
     throw new Error(`${url} cannot be fetched (${error.message}); check the connection and the page's content security policy`);
   });
   if (!response.ok) throw new Error(`${url} cannot be fetched (status ${response.status}); samples/web/build.sh makes it`);
-  // Behind a compression the length is that of the compressed bytes.
+  // If the server compresses the file, Content-Length is the number of compressed bytes.
   const all = response.headers.get("Content-Encoding") ? 0 : Number(response.headers.get("Content-Length") ?? 0);
   const parts = [];
   let received = 0;
@@ -38,7 +39,7 @@ function arraysOf(places, bytes, url) {
   return arrays;
 }
 
-// What the first picture needs. progress(name of the file, received, all).
+// Fetches what the first picture needs. Calls progress(name of the file, received, all).
 export async function fetchCharacter(folder, progress = () => {}) {
   const [text, bytes, nook] = await Promise.all(["json", "bin", "nook"].map((ending) => {
     const url = `${folder}/character.${ending}`;
@@ -54,15 +55,15 @@ export async function fetchCharacter(folder, progress = () => {}) {
   return { ...description, arrays: arraysOf(description.arrays, bytes, `${folder}/character.bin`), nook, isComplete: false };
 }
 
-// What comes after the first picture: all frames of the clips, and the ray-traced reference.
+// Fetches what is needed after the first picture: all frames of the clips, and the ray-traced reference.
 export async function fetchShowcase(folder, character) {
   const url = `${folder}/showcase.bin`;
   Object.assign(character.arrays, arraysOf(character.showcase, await fetchBytes(url), url));
   character.isComplete = true;
 }
 
-// The matrices of a clip at a time, 12 floats for each bone, between the two nearest frames; those of the reference until all
-// frames are there.
+// Returns the matrices of a clip at a time, with 12 floats for each bone, interpolated between the two nearest frames. Until
+// all frames have arrived, returns the matrices of the reference.
 export function samplePose(character, clip, seconds, out) {
   if (!character.isComplete) return referencePose(character, clip, out);
   const { first_frame: first, frames, seconds: length } = character.clips[clip];
@@ -75,7 +76,8 @@ export function samplePose(character, clip, seconds, out) {
   return out;
 }
 
-// Makes the axes of a 3x4 matrix a rotation with one scale: those of a mean of two rotations are shorter and no longer perpendicular.
+// Replaces the axes of a 3x4 matrix by a rotation with one scale. The axes of a mean of two rotations are shorter and no longer
+// perpendicular.
 function straighten(matrix, at, scale) {
   const axis = (column) => [matrix[at + column], matrix[at + column + 4], matrix[at + column + 8]];
   const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -86,7 +88,7 @@ function straighten(matrix, at, scale) {
   [x, y, z].forEach((v, column) => v.forEach((value, row) => (matrix[at + 4 * row + column] = scale * value)));
 }
 
-// The matrices of the frame that the ray-traced reference has.
+// Returns the matrices of the frame for which there is a ray-traced reference.
 export function referencePose(character, clip, out) {
   const floats = 12 * character.bones;
   out.set(character.arrays.stills.subarray(clip * floats, (clip + 1) * floats));

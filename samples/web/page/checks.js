@@ -1,4 +1,4 @@
-// What the test of the page calls in the browser; see ../test.mjs.
+// The functions that the test of the page (../test.mjs) calls in the browser.
 import { Program, depthTarget, texture } from "./program.js";
 
 const largest = (a, b) => {
@@ -10,7 +10,7 @@ const largest = (a, b) => {
 export function makeChecks(page) {
   const { nook, character, webgl } = page;
 
-  // The scene that the native program evaluated.
+  // Returns the scene that the native program evaluated.
   function expectedScene() {
     const scene = nook.createScene();
     const { expected_poses: poses } = character.arrays;
@@ -27,7 +27,7 @@ export function makeChecks(page) {
     return { scene, ids };
   }
 
-  // The values of a buffer of Nook, read by the page.
+  // Reads values from one of Nook's buffers with the page's own calls.
   function readBuffer({ buffer, offset, count }) {
     const values = new Float32Array(count);
     webgl.bindBuffer(webgl.COPY_READ_BUFFER, buffer);
@@ -37,7 +37,8 @@ export function makeChecks(page) {
   }
 
   return {
-    // Largest differences of AO over all vertices: of the CPU in WebAssembly and of WebGL against native, and of one another.
+    // Returns the largest differences of AO over all vertices: the CPU in WebAssembly and WebGL, against native and against
+    // each other.
     characters() {
       const { scene, ids } = expectedScene();
       const { ao } = page.renderer;
@@ -62,7 +63,8 @@ export function makeChecks(page) {
       return differences;
     },
 
-    // Nook's pass on uploaded linear depth against expected bytes: the share of pixels within 1/255, and the largest difference.
+    // Runs Nook's pass on uploaded linear depth, and compares it with expected bytes. Returns the share of pixels within 1/255,
+    // and the largest difference.
     screen({ width, height, depth, normals, expected, projection, radius }) {
       const gl = webgl;
       const upload = (format, channels, data) => {
@@ -102,8 +104,8 @@ export function makeChecks(page) {
         expected: new Uint8Array(bytes, 20 * count, count) });
     },
 
-    // The picture that the native program drew of the expected scene, drawn again with its shaders: the share of pixels within two
-    // steps of 255 in every channel, and the mean difference in steps.
+    // Draws the native program's picture of the expected scene again, with the native program's shaders. Returns the share of
+    // pixels within two steps of 255 in every channel, and the mean difference in steps.
     async picture() {
       const gl = webgl, { ao } = page.renderer;
       const description = await (await fetch("data/picture.json")).json();
@@ -125,7 +127,7 @@ export function makeChecks(page) {
         gl.enableVertexAttribArray(slot);
         gl.vertexAttribPointer(slot, 3, gl.FLOAT, false, 12, 12 * vertex);
       });
-      // views: the AO of both instances, or none for depth alone.
+      // views: the AO of both instances; leave it out to draw only depth.
       const draw = (target, program, values, views) => {
         gl.bindFramebuffer(gl.FRAMEBUFFER, target.framebuffer);
         gl.viewport(0, 0, width, height);
@@ -185,7 +187,7 @@ export function makeChecks(page) {
       return { share: near / (width * height), mean: sum / (width * height), colours: colours.size, error: gl.getError() };
     },
 
-    // The material decoded by WebGL has no CPU picture here; the CPU in WebAssembly answers a sample.
+    // There is no CPU picture of the material, so this only evaluates a sample on the CPU, in WebAssembly.
     material() {
       const [value] = page.material.evaluate([{ uv: [0.3, 0.6], view: [0, 0, 1], light: [0.3, 0, 0.95] }]);
       return { radiance: [...value.radiance], visibility: value.visibility, textures: page.renderer.material.info.textureCount };
@@ -205,13 +207,13 @@ export function makeChecks(page) {
       return page.meanSquaredError();
     },
 
-    // Frames for some seconds: their number, errors, and what grew after the first ones.
+    // Draws frames for some seconds. Returns their number, the errors, and what has grown since the first frames.
     async frames(seconds) {
       const measure = () => ({ memory: nook.memoryBytes, objects: page.renderer.ao.objectCount });
       let start = null, count = 0, errors = 0;
       const began = performance.now();
       while (performance.now() - began < 1000 * seconds || count < 6) {
-        // Without a window, frames of the browser are few; a pixel that is read waits for the frame of WebGL.
+        // Without a window, the browser draws few frames. Reading a pixel waits until WebGL has drawn the frame.
         await new Promise((resolve) => setTimeout(resolve));
         page.draw(count / 30);
         webgl.readPixels(0, 0, 1, 1, webgl.RGBA, webgl.UNSIGNED_BYTE, new Uint8Array(4));
@@ -228,7 +230,7 @@ export function makeChecks(page) {
       return pixels;
     },
 
-    // The picture before a loss of the context and after it came back.
+    // Compares the picture before the context is lost with the picture after it is restored.
     async loss(seconds) {
       page.draw(seconds);
       const before = this.pixels();
@@ -237,7 +239,7 @@ export function makeChecks(page) {
       const lost = event("webglcontextlost");
       extension.loseContext();
       await lost;
-      // A browser restores a context only after the event's handlers are done.
+      // A browser restores a context only after the handlers of the event have returned.
       await new Promise((resolve) => setTimeout(resolve, 50));
       const back = event("webglcontextrestored");
       extension.restoreContext();

@@ -1,7 +1,7 @@
 // The crowd: a scene of Nook with one instance for each body, their places and poses.
 import { referencePose, samplePose } from "./character.js";
 
-// The same numbers in every run.
+// Returns a generator that gives the same numbers in every run.
 function randomNumbers(seed) {
   let state = seed;
   return () => {
@@ -13,7 +13,7 @@ function randomNumbers(seed) {
 const groundPlane = [0, 1, 0, 0];
 const spacing = 0.92;  // metres between neighbours
 
-// Places in a spiral around the middle, nearest first, each with a clip, a phase and a heading.
+// Returns places in a spiral around the middle, nearest first, each with a clip, a phase and a heading.
 function places(count, clips) {
   const random = randomNumbers(7);
   return Array.from({ length: count }, (_, i) => {
@@ -51,7 +51,7 @@ export class Crowd {
     }
   }
 
-  // One body for each clip, side by side and far enough from each other, in the frame that the ray-traced reference has.
+  // Shows one body for each clip, side by side and far enough apart, in the frame of the ray-traced reference.
   lineUp() {
     this.resize(this.character.clips.length);
     this.bodies.forEach((body, i) => Object.assign(body, { x: 0.98 * (i - (this.count - 1) / 2), z: 0, yaw: 0.35, clip: i }));
@@ -77,7 +77,7 @@ export class Crowd {
     }
   }
 
-  // The lobes darken all bodies, or the first one alone: the light of one makes the text for shaders.
+  // Sets the lobes on all bodies, or on the first one only: Nook needs one light to generate the GLSL.
   light(lobes, all) {
     this.bodies.forEach(({ instance }, i) => this.scene.setLight(instance, all || i === 0 ? lobes : null));
   }
@@ -87,7 +87,7 @@ export class Crowd {
   }
 }
 
-// The matrices for skinning: those of the pose, turned and moved to the body's place.
+// Writes the matrices for skinning: the matrices of the pose, turned and moved to the body's place.
 function place(pose, c, s, { x, z }, out) {
   for (let i = 0; i < pose.length; i += 12)
     for (let k = 0; k < 4; ++k) {

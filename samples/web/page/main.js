@@ -1,6 +1,6 @@
-// The page: loads the data, holds the state that the panel changes, and draws frames. Read it first, then crowd.js (a scene of
-// Nook) and renderer.js (Nook beside a host's own WebGL).
-// By its place: a map of names would stand in the page itself, where strict policies forbid scripts.
+// The page loads the data, holds the state that the panel changes, and draws frames. Read this file first, then crowd.js (a
+// scene of Nook) and renderer.js (Nook beside a host's own WebGL).
+// Imports by path. An import map would be an inline script in the page, which strict content security policies forbid.
 import { load } from "./node_modules/nook-web/index.js";
 import { readAddress, readTime, writeAddress } from "./address.js";
 import { fetchBytes, fetchCharacter, fetchShowcase } from "./character.js";
@@ -48,7 +48,7 @@ const state = { ...initial };
 readAddress(location.search, state, limits);
 const { report, progress, clear } = globalThis.nookMessage;
 
-// Browsers bound how often the address may be written.
+// Browsers limit how often a page may write its address.
 let writing = 0;
 function keepAddress() {
   clearTimeout(writing);
@@ -69,10 +69,10 @@ class Page {
     this.seconds = 0;
     this.frames = 0;
     this.paused = false;
-    this.failed = false;  // until the context is made anew
+    this.failed = false;  // true until the context is restored
   }
 
-  // In a lost context there is none until it is restored.
+  // Does nothing in a lost context. The renderer is made when the context is restored.
   makeRenderer() {
     if (this.webgl.isContextLost()) return;
     try {
@@ -87,7 +87,7 @@ class Page {
     this.renderer?.destroy();
     this.renderer = null;
   }
-  // The error is shown once its reference is there.
+  // The error is shown as soon as its reference has arrived.
   get showsError() {
     return state.view === "error" && this.character.isComplete;
   }
@@ -101,7 +101,7 @@ class Page {
     this.arrange();
   }
 
-  // The probe of the sky, its lobes for the characters, and its mean irradiance for comparison.
+  // Makes the probe of the sky, its lobes for the characters, and its mean irradiance for comparison.
   makeLight() {
     this.lamp = lampDirection(state.azimuth * degrees, state.height * degrees);
     const before = this.probe;
@@ -112,11 +112,11 @@ class Page {
     this.irradiance = [0, 1, 2].map((i) => (irradiance[i] + irradiance[3 + i] + irradiance[6 + i] + irradiance[9 + i] + irradiance[12 + i] + irradiance[15 + i]) / 6);
     this.irradianceUp = irradiance.slice(6, 9);
     before?.destroy();
-    // A renderer that is made after a loss takes the probe of then.
+    // A renderer that is made after a loss of the context uses the current probe.
     if (this.renderer && !this.webgl.isContextLost()) this.renderer.probe.update(this.probe);
   }
 
-  // The crowd and its links, after a change of the state.
+  // Updates the crowd and its links after a change of the state.
   arrange() {
     const error = this.showsError;
     if (error) this.crowd.lineUp();
@@ -139,7 +139,7 @@ class Page {
     keepAddress();
   }
 
-  // Draws a frame; false where there is nothing to draw on: a lost context, or a canvas without a size.
+  // Draws a frame. Returns false if this is not possible, because the context is lost or the canvas has no size.
   draw(seconds) {
     if (!this.renderer || this.webgl.isContextLost()) return false;
     const scale = Math.min(devicePixelRatio, 2);
@@ -159,7 +159,7 @@ class Page {
     return true;
   }
 
-  // The mean squared error of what the error picture shows.
+  // Returns the mean squared error of the error picture.
   meanSquaredError() {
     const { references } = this.character.arrays;
     let sum = 0, count = 0;
@@ -187,7 +187,7 @@ const keys = {
 };
 
 function steer(page) {
-  // The pointers that are down: one turns the camera, two change its distance.
+  // The pointers that are down. One pointer turns the camera, and two pointers change its distance.
   const pointers = new Map();
   const spread = () => {
     const [a, b] = [...pointers.values()];
@@ -231,7 +231,7 @@ function steer(page) {
   });
 }
 
-// The page may lose its context at any time, while it loads too.
+// The page may lose its context at any time, even while it loads.
 function watchContext(pageOf) {
   canvas.addEventListener("webglcontextlost", (event) => {
     event.preventDefault();
@@ -251,7 +251,7 @@ function watchContext(pageOf) {
   });
 }
 
-// Draws frames from now on. Resolves after the first one, or at once where the page waits for its test.
+// Draws frames from now on. Resolves after the first frame, or at once if the page waits for its test.
 function run(page) {
   let drawn = () => {};
   const first = page.paused ? Promise.resolve() : new Promise((resolve) => (drawn = resolve));
@@ -265,7 +265,7 @@ function run(page) {
     try {
       if (!page.draw(fixedTime ?? page.seconds)) return;
     } catch (error) {
-      // A context may be lost within a frame; the next one draws when it is back.
+      // The context may be lost within a frame. The next frame draws after it is restored.
       if (page.webgl.isContextLost()) return;
       page.failed = true;
       report(error);
@@ -284,7 +284,7 @@ function run(page) {
   return first;
 }
 
-// start.js has asked for the module already; where that failed, load() asks again and tells why.
+// start.js has already requested the module. If that failed, load() requests it again and reports the reason.
 async function loadNook(log) {
   const answer = await globalThis.nookFetch("node_modules/nook-web/nook.wasm").catch(() => null);
   return load(answer?.ok ? { log, wasm: answer } : { log });
@@ -305,7 +305,7 @@ async function start() {
   const [nook, character] = await Promise.all([loadNook(log), fetchCharacter("data", count)]);
   page = new Page(nook, character, named("data/character.nook", () => nook.loadCharacter(character.nook)), null, webgl);
   character.nook = null;
-  // The panel is folded where it would cover the picture.
+  // The panel is folded on small screens, where it would cover the picture.
   document.getElementById("more").open = !matchMedia("(max-width: 640px), (max-height: 420px)").matches;
   page.showPanel = () => {
     makePanel(document.getElementById("first"), state, first, (member) => page.changed(member));
@@ -316,7 +316,7 @@ async function start() {
   page.paused = query.has("check");
   clear();
   const firstPicture = run(page);
-  // The showcase comes after the first picture: the clips, the reference and the material are most of the bytes.
+  // The showcase follows after the first picture, because the clips, the reference and the material are most of the bytes.
   await firstPicture;
   await fetchShowcase("data", character);
   page.addShowcase();
@@ -325,7 +325,7 @@ async function start() {
   window.nookPage = { page, checks: query.has("check") ? (await import("./checks.js")).makeChecks(page) : null };
 }
 
-// What a file's contents make the library say, with the name of the file.
+// Runs a call that reads a file's contents. Adds the name of the file to errors of the library.
 function named(url, call) {
   try {
     return call();

@@ -1,4 +1,4 @@
-// Programs and textures of the page's own.
+// Makes the page's own programs and textures.
 function shader(gl, kind, source) {
   const made = gl.createShader(kind);
   gl.shaderSource(made, source);
@@ -11,8 +11,8 @@ function shader(gl, kind, source) {
 const head = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2DShadow;\n" +
   "precision highp sampler2DArray;\n";
 
-// A program whose uniforms are set by name: p.set({ exposure: 1, light: [0, 1, 0], map: texture }). Samplers take the texture, or
-// { texture, target }. feedback: the outputs of the vertex shader that transform feedback keeps.
+// A program whose uniforms are set by name: p.set({ exposure: 1, light: [0, 1, 0], map: texture }). For a sampler, pass the
+// texture, or { texture, target }. `feedback` lists the vertex shader's outputs that transform feedback writes.
 export class Program {
   constructor(gl, vertex, fragment, feedback = null) {
     this.gl = gl;
@@ -33,7 +33,7 @@ export class Program {
       const { name, type } = gl.getActiveUniform(this.program, i);
       this.uniforms.set(name, { type, location: gl.getUniformLocation(this.program, name) });
     }
-    // Samplers of different kinds may not share a unit, even where no texture is set.
+    // Samplers of different kinds must not share a unit, even if no texture is set.
     const plain = [gl.FLOAT, gl.FLOAT_VEC2, gl.FLOAT_VEC3, gl.FLOAT_VEC4, gl.FLOAT_MAT4, gl.INT, gl.BOOL];
     gl.useProgram(this.program);
     for (const [name, { type, location }] of this.uniforms) {

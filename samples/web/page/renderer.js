@@ -1,5 +1,5 @@
-// Draws a frame: skinning, lamp depth, depth of the view, Nook's screen-space pass, and the picture. Everything here belongs to one WebGL
-// context, and is made anew after the context was lost.
+// Draws a frame: skinning, lamp depth, depth of the view, Nook's screen-space pass, and the picture. Everything here belongs to
+// one WebGL context, and is made again after the context was lost.
 import { lookAt, multiply, orthographic, perspective, scale } from "./matrix.js";
 import { Program, depthTarget, texture } from "./program.js";
 import { ballFragment, ballVertex, bodyDepthVertex, bodyFragment, bodyVertex, depthFragment, groundFragment, groundVertex,
@@ -9,10 +9,10 @@ const lampMapSize = 1024;
 const fovY = 0.62;
 const near = 0.2, far = 60;
 const groundHalfSize = 40;
-const skinnedBytes = 24;  // of a vertex: place and normal
+const skinnedBytes = 24;  // per vertex: position and normal
 const background = [0.8, 0.83, 0.87];
 
-// A ball of strips; uv repeats around it.
+// Makes a ball of strips; uv repeats around it.
 function ballMesh(rows, columns) {
   const vertices = [], indices = [];
   for (let r = 0; r <= rows; ++r)
@@ -84,7 +84,7 @@ export class Renderer {
     floats(3, weights, 4);
     this.bodyArray = gl.createVertexArray();
     gl.bindVertexArray(this.bodyArray);
-    // The reference comes after the first picture; an attribute must have a buffer before.
+    // The reference arrives after the first picture, but an attribute needs a buffer before.
     this.references = floats(6, this.character.arrays.references ?? new Uint8Array(this.character.vertices), 1, gl.UNSIGNED_BYTE, true);
     buffer(gl, gl.ELEMENT_ARRAY_BUFFER, indices);
     this.ballArray = gl.createVertexArray();
@@ -103,7 +103,7 @@ export class Renderer {
     this.skinned = null;
   }
 
-  // Depth, pass and bones for a size of the canvas and a number of bodies.
+  // Makes depth, pass and bones for a size of the canvas and a number of bodies.
   #fit(width, height, bodies) {
     const { gl } = this;
     if (!this.view || this.view.width !== width || this.view.height !== height) {
@@ -189,7 +189,7 @@ export class Renderer {
     this.#drawGround();
   }
 
-  // The places of an instance's occlusion as attributes 4 and 5, and of its reference as 6.
+  // Binds an instance's AO as the attributes 4 and 5, and its reference as the attribute 6.
   #bindAo(crowd, body, options) {
     const { gl } = this;
     const view = this.ao.view(crowd.scene, body.instance);
@@ -210,7 +210,7 @@ export class Renderer {
     gl.vertexAttribPointer(6, 1, gl.UNSIGNED_BYTE, true, 0, body.clip * this.character.vertices);
   }
 
-  // The program of the bodies holds the text of the lights.
+  // The program of the bodies includes Nook's GLSL for the lights.
   #bodyProgramOf(crowd, form) {
     if (!this.bodyPrograms.has(form)) {
       const { glsl } = this.ao.view(crowd.scene, crowd.bodies[0].instance);
@@ -219,8 +219,8 @@ export class Renderer {
     return this.bodyPrograms.get(form);
   }
 
-  // options: view, light, characterAo, screenAo, radius, lampDirection, lamp, exposure, eye, target, ball, irradiance and irradianceUp (the mean, and on the
-  // ground).
+  // options: view, light, characterAo, screenAo, radius, lampDirection, lamp, exposure, eye, target, ball, irradiance (the
+  // mean), irradianceUp (on the ground).
   draw(crowd, options) {
     const { gl } = this;
     const { drawingBufferWidth: width, drawingBufferHeight: height } = gl;
@@ -278,7 +278,7 @@ export class Renderer {
     this.#end();
   }
 
-  // Pixels of the meso-structure that are opaque, then its edges.
+  // Draws the opaque pixels of the meso-structure first, then its edges.
   #drawMaterial(values) {
     const { gl } = this;
     this.ballProgram.use(values);
@@ -299,7 +299,7 @@ export class Renderer {
     this.gl.useProgram(null);
   }
 
-  // After a loss, WebGL has deleted the page's own objects already.
+  // If the context was lost, WebGL has already deleted the page's own objects.
   destroy() {
     this.pass?.destroy();
     this.probe.destroy();

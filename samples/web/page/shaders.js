@@ -1,6 +1,7 @@
-// The page's own shaders. Light and occlusion are Nook's: the text of its functions stands before those that call them.
+// The page's own shaders. Nook computes light and occlusion: the text of its functions is inserted before the shaders that call
+// them.
 
-// Skinning, once for each vertex and frame: transform feedback keeps place and normal for the passes that follow.
+// Skins each vertex once per frame. Transform feedback keeps position and normal for the passes that follow.
 export const skinVertex = `
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
@@ -75,8 +76,8 @@ void main() {
   gl_Position = clip_from_world * vec4(world, 1.0);
 }`;
 
-// What all lit surfaces share. The canvas is multisampled and the screen-space AO is not, so that at an edge its texel may belong
-// to another surface: of the five texels around, the one with the nearest depth counts.
+// Code that all lit surfaces share. The canvas is multisampled and the screen-space AO is not, so at an edge, its texel may
+// belong to another surface. From this texel and the four texels beside it, the function takes the one with the nearest depth.
 const surface = `
 uniform vec3 eye;
 uniform vec3 background;
@@ -190,7 +191,7 @@ void main() {
   if (view > 0) { colour = vec4(vec3(0.93 * (view == 1 ? screen_occlusion() : 0.9)), alpha); return; }
   vec4 modes[NOOK_LIGHT_VEC4_COUNT];
   nook_material_decode(uv, dx, dy, sight, modes);
-  // The lamp, and the probe's light as one light nearly along the normal.
+  // Adds the lamp, and the probe's light as a single light nearly along the normal.
   vec3 radiance = vec3(0.0);
   if (dot(n, lamp_direction) > 0.0)
     radiance += nook_material_radiance(modes, to_tangent * lamp_direction) * lamp_colour * lamp_visibility(world, n);
@@ -199,7 +200,7 @@ void main() {
   colour = vec4(shown(radiance, world), alpha);
 }`;
 
-// The pass's own picture, for the view of the screen-space AO alone.
+// Shows the texture of the pass, for the view of screen-space AO alone.
 export const screenVertex = `
 void main() { gl_Position = vec4(vec2(float(gl_VertexID & 1), float(gl_VertexID >> 1)) * 4.0 - 1.0, 0.0, 1.0); }`;
 export const screenFragment = `

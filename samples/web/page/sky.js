@@ -1,4 +1,4 @@
-// The light: a sky with a soft lamp, as a function of direction, and its probe of twelve lobes fitted by Nook.
+// The light: a sky with a soft lamp as a function of direction, and a probe of twelve lobes that Nook fits to it.
 import { dot, normalise } from "./matrix.js";
 
 const samples = 4000;
@@ -18,7 +18,7 @@ function radiance(direction, lamp, strength) {
   return [0, 1, 2].map((i) => 0.55 * (floor[i] + (sky[i] - floor[i]) * blend) + lobe * warm[i]);
 }
 
-// Lobes of the sky; the caller destroys the probe.
+// Fits a probe of lobes to the sky. The caller destroys the probe.
 export function fitProbe(nook, lamp, strength) {
   const directions = new Float32Array(3 * samples), colours = new Float32Array(3 * samples);
   for (let i = 0; i < samples; ++i) {

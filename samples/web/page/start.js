@@ -1,4 +1,4 @@
-// Starts the page, and tells why where it cannot: a file that is missing, an answer that is cut off, a policy that forbids it.
+// Starts the page. If that is not possible, says why: a file is missing, an answer is cut off, or a policy forbids it.
 (() => {
   const message = document.getElementById("message"), text = document.getElementById("message_text");
   const show = (sentence, isError) => {
@@ -12,17 +12,17 @@
     clear: () => show("", false),
     report(error) {
       const reason = error?.message ?? String(error);
-      // A script that is cut off, or a page of the server in its place, is a SyntaxError.
+      // If a script is cut off, or the server sends a page in its place, the error is a SyntaxError.
       show(error instanceof SyntaxError || /dynamically imported module|module script|Failed to resolve module|error loading/i.test(reason)
         ? `A script of the page cannot be loaded (${reason}). Is the folder complete, and does the server's content security policy allow its own scripts?`
         : reason, true);
       console.error(error);
     },
   };
-  // Takes what index.html preloads, before the other scripts are there.
+  // Requests the files that index.html preloads, before the other scripts have loaded.
   const early = new Map(["node_modules/nook-web/nook.wasm", "data/character.json", "data/character.bin", "data/character.nook"]
     .map((url) => [url, fetch(url)]));
-  for (const answer of early.values()) answer.catch(() => {});  // whoever needs the file tells
+  for (const answer of early.values()) answer.catch(() => {});  // the code that needs the file reports the error
   globalThis.nookFetch = (url) => {
     const answer = early.get(url) ?? fetch(url);
     early.delete(url);

@@ -1,7 +1,7 @@
-// If nook_gl_desc.debug is set, logs a message when a frame cannot show AO, for one of three reasons: its
+// If nook_gl_desc.debug is set, logs a message when a frame cannot show AO. There are three reasons: its
 // depth shows no surface, the host's mask covers all surfaces, or the radius does not fit the depth. A mask
-// or radius that was right in an earlier frame is not reported, because the camera may just be close to a
-// wall, or to a character that the mask covers. Query results, and so the message, may arrive some frames
+// or radius that was right in an earlier frame is not reported. The camera may just be close to a wall, or to
+// a character that the mask covers. The results of the queries, and so the message, may arrive some frames
 // later.
 #pragma once
 
