@@ -56,8 +56,8 @@ notices() {
   {
     echo "Third-party notices of $name"
     echo
-    echo "The library holds code that the glad generator writes, and GLM's headers. The tool and nook_bake use the other libraries; they are"
-    echo "not part of these files where a package manager brings them. Each text is that of the Debian package it was built with."
+    echo "The library contains code from the glad generator and from GLM's headers. The tool and nook_bake use the other libraries, which are"
+    echo "not part of these files if a package manager installs them. Each text comes from the Debian package that the build used."
     for package in python3-glad libglm-dev libembree-dev libtbb-dev libeigen3-dev liblbfgspp-dev libopenimageio-dev libtinygltf-dev \
                    libcli11-dev libmeshoptimizer-dev libdraco-dev nlohmann-json3-dev; do
       file=/usr/share/doc/$package/copyright

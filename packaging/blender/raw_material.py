@@ -124,8 +124,8 @@ def write(path, name, lights, views, radiance, mask=None):
 
 
 def _write_whole(path, data):
-    """Writes a file whole or not at all. The file keeps the mode of the file that it replaces. Pipes and devices are written to
-    directly."""
+    """Writes a complete file, or leaves the old one. The new file keeps the mode of the file that it
+    replaces. Pipes and devices are written to directly."""
     if os.path.exists(path) and not os.path.isfile(path):
         with open(path, "wb") as out:
             out.write(data)

@@ -58,7 +58,7 @@ class NookConan(ConanFile):
         for name in ("LICENSE", "NOTICE"):
             copy(self, name, self.source_folder, os.path.join(self.package_folder, "licenses"))
         CMake(self).install()
-        # Conan writes these for its users.
+        # Conan generates these files for its users.
         for folder in ("cmake", "pkgconfig"):
             rmdir(self, os.path.join(self.package_folder, "lib", folder))
         rmdir(self, os.path.join(self.package_folder, "share", "doc"))

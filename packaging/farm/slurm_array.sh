@@ -50,6 +50,6 @@ if [ -n "${SLURM_ARRAY_TASK_ID:-}" ]; then
   [ $# -eq 2 ] || fail "start it without a job, as slurm_array.sh TASKS"
   run_lines "$@"
 else
-  [ $# -ge 1 ] && [ -f "$1" ] || fail "usage: slurm_array.sh TASKS [SBATCH OPTION...]; TASKS has one command a line"
+  [ $# -ge 1 ] && [ -f "$1" ] || fail "usage: slurm_array.sh TASKS [SBATCH OPTION...]; TASKS has one command per line"
   submit "$@"
 fi

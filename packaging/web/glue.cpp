@@ -1,5 +1,5 @@
-// What JavaScript needs beside the library's own functions: the loader of WebGL functions, a log, and tables
-// in memory with the layouts of structs and the values of constants.
+// Code that JavaScript needs in addition to the library's own functions: the loader of WebGL functions, a
+// log, and tables in memory with the layouts of structs and the values of constants.
 #include <emscripten.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_lod.h>
@@ -27,7 +27,7 @@ struct Field {
   std::uint32_t offset;   // bytes
   char type[4];           // i, u, f, d; w: 64 bits; p: address or size; s: text inside; t: address of text
   std::uint32_t count;    // above 1 in arrays
-  const char* constants;  // the group of constants that it takes, or null
+  const char* constants;  // the group of constants whose values the field takes, or null
 };
 
 template <class T>
@@ -76,7 +76,7 @@ const Field fields[] = {
 
 struct Constant {
   const char* name;
-  const char* group;  // the type of the fields that take it
+  const char* group;  // the type of the fields that take the constant
   std::int32_t value;
 };
 
@@ -89,7 +89,7 @@ const Constant constants[] = {
 
 }  // namespace
 
-// Emscripten's functions of WebGL 2, with the types that the library's own table gives them.
+// Emscripten's WebGL 2 functions, with the types from the library's own table.
 #define DECLARE(name) std::remove_pointer_t<decltype(GladGLContext::name)> gl##name;
 #define OF_WEBGL(X)           \
   NOOK_GL_FUNCTIONS_COMMON(X) \

@@ -1,4 +1,4 @@
-// Reads the library's headers and writes what the module of WebAssembly is made with:
+// Reads the library's headers and writes the files from which the WebAssembly module is built:
 //   layouts.inc   rows for the tables of glue.cpp: members of structs, and constants; the compiler fills in the numbers
 //   exports.json  the names of all functions
 // node read_headers.mjs INCLUDE_FOLDER OUTPUT_FOLDER
@@ -10,7 +10,8 @@ const [include, output] = process.argv.slice(2);
 const text = headers.map((name) => readFileSync(`${include}/nook/${name}.h`, "utf8")).join("\n")
   .replace(/\/\*[\s\S]*?\*\//g, "");
 
-// "float a[3]", "const void* next", "int32_t width, height", "void* (*get_proc)(...)": type and names.
+// Returns the type and the names of a declaration, such as "float a[3]", "const void* next", "int32_t width, height" or "void*
+// (*get_proc)(...)".
 function membersOf(body) {
   return body.split(";").map((line) => line.trim().replace(/\s+/g, " ")).filter(Boolean).flatMap((line) => {
     const pointer = /\(\*(\w+)\)/.exec(line);

@@ -64,7 +64,7 @@ static VkResult record_pass(Pass* p, const engine* e, const Settings* s) {
   frame.clip_space = NOOK_CLIP_SPACE_ZERO_TO_ONE;
   memcpy(frame.projection, e->projection, sizeof frame.projection);
   desc.radius = s->radius_m;
-  frame.normal_texture = s->normals ? 1 : 0; /* 0: the pass derives normals from depth */
+  frame.normal_texture = s->normals ? 1 : 0; /* 0: normals that follow from depth */
   rotation(e->view, frame.normal_matrix);
   return nook_vulkan_record(&p->vulkan, e->commands, &frame, &desc);
   /* [end] */

@@ -126,7 +126,7 @@ def farthest(entry, found):
 
 
 def take_pose(entry, way, actions):
-    """Takes a still of one pose, on a new stage."""
+    """Evaluates one pose on a new stage, and returns the still."""
     kind, name, value = way
     with stage.opened(entry.armature, entry.items) as played:
         if kind == "turned":

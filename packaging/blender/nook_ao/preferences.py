@@ -1,4 +1,4 @@
-"""Says where the command and the libraries are, and keeps the settings of a rig."""
+"""Stores where the command and the libraries are, and the settings of a rig."""
 import bpy
 
 from . import folders

@@ -80,7 +80,7 @@ class Shown:
         return 1e-4 * float(np.linalg.norm(self.character.bounds[1] - self.character.bounds[0]))
 
     def trace(self, pose, rays):
-        """Returns the same values, computed by ray tracing only the body."""
+        """Returns the AO of a pose, ray traced from the body only."""
         positions, normals = self.character.skin(pose)
         return self.nook.trace_ao([(positions, self.character.triangles())], positions, normals, rays=rays, origin_offset=self.ray_offset)
 
@@ -177,7 +177,7 @@ def record_of_old_bake(context, armature):
 
 
 def existing_files(armature):
-    """Returns where the armature's bake is according to the file. The user may have to confirm the folder."""
+    """Returns where the file says that the armature's bake is. The user may have to confirm the folder."""
     files = records.files_of(armature)
     if files is None:
         raise Fault(f"the armature {armature.name} has no bake; bake it first")

@@ -1,4 +1,5 @@
-"""The shared library, the results of its calls, and conversion of Python values to C arguments: numbers, names, bytes, arrays."""
+"""The shared library, the results of its calls, and the conversion of Python values to C arguments: numbers,
+names, bytes, arrays."""
 import ctypes
 import ctypes.util
 import functools
@@ -26,7 +27,8 @@ class NookError(Exception):
         self.code = code
 
     def __reduce__(self) -> Tuple[Any, ...]:
-        # Without both arguments a Pool could not make the error again, and would wait for ever.
+        # If an argument were missing, a multiprocessing Pool could not create the error again, and would wait
+        # forever.
         return type(self), (self.code, str(self))
 
 
@@ -49,7 +51,7 @@ def _candidates() -> List[str]:
 
 
 class _Library:
-    """Functions by name, with the types of the headers; they are looked up when they are first called."""
+    """Finds functions by name when they are first called, and gives them the types of the headers."""
 
     def __init__(self) -> None:
         self._parts: Optional[List[ctypes.CDLL]] = None
@@ -141,7 +143,7 @@ def checked(value: Any, kind: Any, what: str) -> Any:
 
 @functools.lru_cache(maxsize=None)
 def _fields(structure: Any) -> Dict[str, Any]:
-    """The types of a structure's fields."""
+    """Returns the types of a structure's fields."""
     return {name: kind for name, kind, *_ in structure._fields_}
 
 
@@ -187,13 +189,14 @@ def call(name: str, *arguments: Any) -> Any:
 
 def call_interruptibly(name: str, *arguments: Any, stop: Optional[Callable[[], None]] = None, keep: Any = None,
                        entries: Optional[int] = None) -> Any:
-    """Like call(), but Ctrl+C can end it. A C call on the main thread would delay Ctrl+C until it returns.
+    """Like call(), but Ctrl+C can end the call. On the main thread, a C call would delay Ctrl+C until it
+    returns.
 
     The call runs on another thread. After Ctrl+C, stop() asks it to end. If it does not end soon, it continues in the background,
     and its result is lost. So it may write only to memory that nobody else uses. keep is the memory that its descriptor points to.
-    A call with few entries ends soon anyway, and needs no thread.
+    A call with few entries ends soon, so it needs no thread.
     """
-    # Signals come to the main thread alone.
+    # Only the main thread receives signals.
     if threading.current_thread() is not threading.main_thread() or (entries is not None and entries < 50_000):
         return call(name, *arguments)
     answers: List[Any] = []
@@ -209,8 +212,8 @@ def call_interruptibly(name: str, *arguments: Any, stop: Optional[Callable[[], N
     thread.start()
     try:
         while thread.is_alive():
-            thread.join(0.1)  # with a time, because Windows does not interrupt a wait without one
-    except BaseException:  # Ctrl+C, or what another handler of a signal raises
+            thread.join(0.1)  # with a timeout, because Windows does not interrupt a wait without one
+    except BaseException:  # Ctrl+C, or an exception from another signal handler
         if stop is not None:
             stop()
         thread.join(0.2)
@@ -242,7 +245,7 @@ class Handle:
 
     _kind: Any = None
     _destroy = ""
-    # Why pickle and copy cannot have it, and what to do.
+    # Says why pickle and copy do not work, and what to do instead.
     _no_copy = "it belongs to this process"
 
     def __init__(self) -> None:
@@ -262,7 +265,8 @@ class Handle:
             self._handle = self._kind()
 
     def __reduce_ex__(self, protocol: Any) -> Any:
-        # A copied handle would name an object that another process does not have, or that is destroyed twice.
+        # A copied handle would refer to an object that another process does not have, or that would be
+        # destroyed twice.
         raise TypeError(f"a nook.{type(self).__name__} cannot be pickled or copied: {self._no_copy}")
 
     def __enter__(self: Own) -> Own:
@@ -292,7 +296,7 @@ def encoded(value: Any, what: str) -> bytes:
     if "\0" in value:
         raise ValueError(f"{what}: {value!r} has a NUL character")
     try:
-        # surrogateescape is how Python keeps the bytes of a file name that is not UTF-8.
+        # surrogateescape is the form in which Python keeps the bytes of file names that are not UTF-8.
         return value.encode("utf-8", "surrogateescape")
     except UnicodeEncodeError:
         raise ValueError(f"{what}: {value!r} contains half of a surrogate pair, which UTF-8 cannot encode") from None

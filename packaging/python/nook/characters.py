@@ -126,7 +126,7 @@ class Character(Handle):
         return float(seconds.value)
 
     def sample_clip(self, clip: Union[int, str], time_s: float) -> FloatArray:
-        """Returns the pose of a clip at a time, in seconds from its first key."""
+        """Returns the pose of a clip at a time in seconds, counted from the first key of the clip."""
         bones = np.empty((self.bone_count, 3, 4), np.float32)
         at = number(time_s, ctypes.c_float, "time_s")
         call("nook_bake_character_sample_clip", self.handle, self._clip(clip), at, pointer(bones), self.bone_count)

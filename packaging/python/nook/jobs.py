@@ -48,7 +48,7 @@ class Job(Handle):
             try:
                 assert progress is not None
                 return 0 if progress(_progress(at.contents)) is False else 1
-            except BaseException as error:  # nothing crosses the C interface; wait() raises it
+            except BaseException as error:  # no exception may cross the C interface, so wait() raises it
                 self._error = error
                 return 0
 
@@ -68,7 +68,7 @@ class Job(Handle):
     def close(self) -> None:
         """Cancels the job if it is running, waits until it has stopped, and destroys it. A second call does nothing."""
         if getattr(self, "_process", None) not in (None, os.getpid()):
-            self._handle = self._kind()  # a process that was forked has no thread of the job, and would wait for ever
+            self._handle = self._kind()  # a forked process has no threads of the job, and would wait forever
         super().close()
 
     def poll(self) -> Progress:
@@ -90,7 +90,7 @@ class Job(Handle):
             yield
         except NookError:
             raise
-        except BaseException:  # Ctrl+C, or what another handler of a signal raises
+        except BaseException:  # Ctrl+C, or an exception from another signal handler
             self.cancel()
             raise
 
@@ -149,7 +149,7 @@ def bake_character(character: Character, *, preset: str = "standard", poses: Opt
 def _character_bake(character: Character, *, preset: str = "standard", poses: Optional[str] = None, clips: Union[str, Sequence[str]] = (),
                     clip_split: Optional[str] = None, extra_poses: Any = None, calibration_poses: Any = None, form: Optional[str] = None,
                     **settings: Any) -> Tuple[Any, Any]:
-    """The descriptor of the bake, and what must live as long as it."""
+    """Returns the descriptor of the bake, and the objects that must live as long as the descriptor."""
     desc = descriptor(c.nook_bake_character_desc)
     desc.character = need(character, Character, "character").handle
     desc.preset = choice("NOOK_BAKE_PRESET_", preset, "preset")
@@ -196,7 +196,7 @@ def bake_material(*, meso: Optional[str] = None, btf: Any = None, coverage: Any 
 def _material_bake(*, meso: Optional[str] = None, btf: Any = None, coverage: Any = None, lights: Any = None, views: Any = None,
                    method: Optional[str] = None, form: Optional[str] = None, relief: bool = False, heights: Any = None,
                    **settings: Any) -> Tuple[Any, Any]:
-    """The descriptor of the bake, and what must live as long as it."""
+    """Returns the descriptor of the bake, and the objects that must live as long as the descriptor."""
     desc = descriptor(c.nook_bake_material_desc)
     kept: List[Any] = []
     own = {"struct_size", "type", "next", "meso", "btf", "coverage", "lights", "views", "method", "form", "relief", "heights",
@@ -249,7 +249,7 @@ def bake_transfer(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tan
 
 def _transfer_bake(positions: Any, normals: Any, uvs: Any, triangles: Any, *, tangents: Any = None, holes_of: Any = None,
                    **settings: Any) -> Tuple[Any, Any]:
-    """The descriptor of the bake, and what must live as long as it."""
+    """Returns the descriptor of the bake, and the objects that must live as long as the descriptor."""
     desc = descriptor(c.nook_bake_transfer_desc)
     holes: Optional[bytes] = None
     p = floats(positions, (None, 3), "positions")

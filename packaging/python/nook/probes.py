@@ -67,7 +67,7 @@ class Probe(Handle):
         return rgb
 
     def save(self, packing: str = "half") -> bytes:
-        """Returns the bytes of its .nook file. packing is float, half or rgb9e5."""
+        """Returns the bytes of the probe's .nook file. packing is float, half or rgb9e5."""
         kind, size = choice("NOOK_PROBE_PACKING_", packing, "packing"), ctypes.c_size_t()
         call("nook_probe_save", self.handle, kind, None, ctypes.byref(size))
         data = ctypes.create_string_buffer(size.value)

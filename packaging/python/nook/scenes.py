@@ -372,7 +372,7 @@ _MOST_THREADS = 1024
 
 
 def _cores() -> int:
-    """The number of cores that this process may use."""
+    """Returns the number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
@@ -409,7 +409,7 @@ def _share(work: Callable[[int, int], None], count: int, threads: int) -> None:
         run()
         for thread in others:
             thread.join()
-    except BaseException as error:  # Ctrl+C, or what another handler of a signal raises
+    except BaseException as error:  # Ctrl+C, or an exception from another signal handler
         errors.append((-1, error))
         for thread in others:
             thread.join()

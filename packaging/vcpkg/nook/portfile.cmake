@@ -1,9 +1,10 @@
-# An overlay port that builds the checkout it lies in. A port of a registry takes its sources with vcpkg_from_git instead.
+# An overlay port that builds the checkout that contains it. A port in a registry would get its sources with vcpkg_from_git
+# instead.
 get_filename_component(SOURCE_PATH "${CMAKE_CURRENT_LIST_DIR}/../../.." ABSOLUTE)
 
 set(options -DNOOK_BAKERS=OFF -DNOOK_SAMPLES=OFF -DNOOK_TESTS=OFF)
 if("gl" IN_LIST FEATURES)
-  # The generator of OpenGL's header is a Python package.
+  # The generator of the OpenGL header is a Python package.
   vcpkg_find_acquire_program(PYTHON3)
   x_vcpkg_get_python_packages(PYTHON_EXECUTABLE "${PYTHON3}" PACKAGES glad2 OUT_PYTHON_VAR NOOK_PYTHON)
   get_filename_component(scripts "${NOOK_PYTHON}" DIRECTORY)

@@ -11,7 +11,7 @@ export function refuse(call, text) {
 const tagOf = (value) => Object.prototype.toString.call(value).slice(8, -1);
 const isObject = (value) => typeof value === "object" && value !== null;
 
-// Returns a hint what to pass instead of an object that contains the numbers, such as a Vector3 of three.js.
+// Returns a hint that says what to pass instead of an object that contains the numbers, such as a Vector3 of three.js.
 function cureOf(value) {
   if (typeof value.then === "function") return "await it";
   if (value.isPlane || (isObject(value.normal) && typeof value.constant === "number"))
@@ -74,7 +74,7 @@ export function checkNumber(call, argument, value, { whole, least = -Infinity, o
 // Checks an index, or the id of an instance or an occluder.
 export const checkIndex = (call, argument, value) => checkNumber(call, argument, value, { whole: true, least: 0 });
 
-// An object of options or of members.
+// Checks an object of options or of members.
 export function checkObject(call, argument, value, wanted = "an object") {
   if (!isObject(value) || isList(value)) refuse(call, `${argument} needs ${wanted} (got ${described(value)})`);
 }
@@ -92,19 +92,19 @@ export function checkOut(call, out, count) {
     refuse(call, `out needs a Float32Array of ${count} numbers (got ${described(out)})`);
 }
 
-// The contents of a file.
+// Checks the contents of a file.
 export function checkBytes(call, argument, value) {
   if (!ArrayBuffer.isView(value) && !["ArrayBuffer", "SharedArrayBuffer"].includes(tagOf(value)))
     refuse(call, `${argument} needs an ArrayBuffer or a typed array with the bytes of the file (got ${
       typeof value?.arrayBuffer === "function" ? `a ${tagOf(value)}; pass await its arrayBuffer()` : described(value)})`);
 }
 
-// An object of WebGL, such as a WebGLTexture; undefined and null mean none. Engines may have their own classes
-// with the same names.
+// Checks a WebGL object, such as a WebGLTexture; undefined and null mean none. Engines may have their own classes with the same
+// names.
 export function checkWebGL(call, argument, value, kinds) {
   if (value === undefined || value === null) return;
   const isOne = kinds.some((kind) => tagOf(value) === kind || (globalThis[kind] && value instanceof globalThis[kind]));
-  // Stand-ins of WebGL outside of browsers have no classes.
+  // Outside of browsers, replacements of WebGL do not have these classes.
   const isStandIn = !kinds.some((kind) => globalThis[kind]) && isObject(value) && !isList(value) &&
     !value.isTexture && !value.isRenderTarget && !value.isBufferAttribute;
   if (isOne || isStandIn) return;

@@ -75,12 +75,12 @@ export class CharacterModel extends Owned {
       this.library.module._nook_model_read(this.handle, 0 /* NOOK_MODEL_STATIC_AO */, address, count, 0));
   }
 
-  // The joint count and rest space of skin number `index`, one of info.skinCount.
+  // Returns the joint count and the rest space of the skin `index`, from 0 to info.skinCount - 1.
   skin(index) {
     checkIndex("nook_model_describe_skin", "index", index);
     return this.library.info("nook_model_describe_skin", "nook_skin_info", (info) => this.library.module._nook_model_describe_skin(this.handle, index, info));
   }
-  // Vertex number `index` of checkPose, one of info.checkVertexCount.
+  // Returns the vertex `index` for checkPose, from 0 to info.checkVertexCount - 1.
   checkVertex(index) {
     checkIndex("nook_model_describe_check_vertex", "index", index);
     return this.library.info("nook_model_describe_check_vertex", "nook_check_vertex_info", (info) =>
@@ -143,8 +143,8 @@ export class CharacterModel extends Owned {
     });
   }
 
-  // Finds the model's vertex for each vertex of a host's mesh: { vertices, unmatched, ambiguous, text }. With `indices`, three for each
-  // triangle, the sides of triangles tell vertices apart too.
+  // Finds the model's vertex for each vertex of a host's mesh: { vertices, unmatched, ambiguous, text }. If you pass `indices`,
+  // three for each triangle, the sides of triangles also distinguish vertices.
   matchVertices(match) {
     const { library } = this;
     const isMesh = match?.indices !== undefined && match?.indices !== null;

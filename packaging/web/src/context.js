@@ -6,7 +6,7 @@ import { Material } from "./material.js";
 import { Probe, ProbeFit } from "./probe.js";
 import { Scene } from "./scene.js";
 
-// One instance of the library; everything else is made by it.
+// One instance of the library. It makes all other objects.
 export class Context extends Owned {
   // isa: a word of nook_isa.
   static make(library, log, isa = "auto", unitsPerMetre = 1) {
@@ -23,7 +23,7 @@ export class Context extends Owned {
     super(library, handle, "nook_context_destroy");
   }
 
-  // "1.0.0-rc1".
+  // For example "1.0.0-rc1".
   get version() {
     const { module } = this.library;
     return module.UTF8ToString(module._nook_version_text());
@@ -43,7 +43,7 @@ export class Context extends Owned {
       });
     });
   }
-  // The bytes of .nook files.
+  // These functions take the bytes of .nook files.
   loadCharacter(bytes) {
     return new CharacterModel(this.library, this.#load("nook_model_load", bytes, this.library.module._nook_model_load));
   }
@@ -55,7 +55,7 @@ export class Context extends Owned {
     return new Material(this.library, this.#load("nook_material_load", bytes, load));
   }
 
-  // The members of nook_scene_desc in camelCase.
+  // `options` has the members of nook_scene_desc in camelCase.
   createScene(options = {}) {
     const { library } = this;
     return new Scene(library, library.call("nook_scene_create", () => {
@@ -64,7 +64,8 @@ export class Context extends Owned {
       return library.made((out) => library.module._nook_scene_create(this.handle, description(), out));
     }));
   }
-  // The members of nook_probe_fit_desc in camelCase. The number of axes or sharpnesses is lobeCount, unless that is given.
+  // `options` has the members of nook_probe_fit_desc in camelCase. The default of lobeCount is the number of axes or
+  // sharpnesses.
   createProbeFit(options = {}) {
     const { library } = this;
     return new ProbeFit(library, library.call("nook_probe_fit_create", () => {
@@ -80,7 +81,7 @@ export class Context extends Owned {
       return library.made((out) => library.module._nook_probe_fit_create(this.handle, description(), out));
     }));
   }
-  // Adopts a WebGL 2 context of the host. { stateMode: "defaults" (default), "preserve" or "host" }.
+  // Adopts a WebGL 2 context of the host. options: { stateMode: "defaults" (default), "preserve" or "host" }.
   createGl(webgl, options = {}) {
     return Gl.make(this.library, this.handle, webgl, options);
   }

@@ -1,4 +1,4 @@
-// A call of the library that failed: message is the library's own, code the name of its result.
+// The error of a failed call: `message` is the library's message, and `code` is the name of the result.
 export class NookError extends Error {
   constructor(message, code) {
     super(message);

@@ -7,7 +7,7 @@ import { Probe } from "./probe.js";
 import { Scene } from "./scene.js";
 import { Surface } from "./surface.js";
 
-// A WebGL 2 context that the library draws in; see nook_gl.h.
+// A WebGL 2 context into which the library draws; see nook_gl.h.
 export class Gl extends OnSurface {
   static make(library, context, webgl, options = {}) {
     if (!webgl || typeof webgl.createTransformFeedback !== "function")
@@ -30,11 +30,11 @@ export class Gl extends OnSurface {
     return this.surface.current(name, () => this.library.call(name, body));
   }
 
-  // tier, version, renderer, bufferBytes, aoBytes.
+  // Returns tier, version, renderer, bufferBytes and aoBytes.
   get info() {
     return this.library.info("nook_gl_describe", "nook_gl_info", (info) => this.library.module._nook_gl_describe(this.handle, info));
   }
-  // The number of WebGL objects that the library holds in this context, for tests.
+  // Returns the number of WebGL objects that the library holds in this context, for tests.
   get objectCount() {
     return this.surface.objectCount;
   }
@@ -64,8 +64,8 @@ export class Gl extends OnSurface {
     this.#current("nook_gl_scene_release", () => this.library.check(this.library.module._nook_gl_scene_release(this.handle, this.#sceneOf(scene))));
   }
 
-  // The place of an instance's values, for vertexAttribPointer: { buffer, offset, stride, count, texture, light, glsl }. channel: "ao",
-  // or "directional-ao" of an instance with a light; texture and light are for the latter.
+  // Returns where an instance's values are, for vertexAttribPointer: { buffer, offset, stride, count, texture, light, glsl }.
+  // channel: "ao", or "directional-ao" for an instance with a light. Only "directional-ao" has texture and light.
   view(scene, instance, channel = "ao") {
     const name = "nook_gl_scene_view";
     this.surface.alive(name);
@@ -97,7 +97,7 @@ export class Gl extends OnSurface {
     }));
   }
 
-  // For tests: waits for the GPU. One number for each vertex, three for "directional-ao".
+  // For tests: reads the values, and waits for the GPU. There is one number for each vertex, or three for "directional-ao".
   read(scene, instance, channel = "ao", out) {
     const name = "nook_gl_scene_read";
     return this.#current(name, () => {
@@ -109,7 +109,7 @@ export class Gl extends OnSurface {
     });
   }
 
-  // { maxWidth, maxHeight, preset, taps, halfResolution, blur, blurSharpness, network }.
+  // options: { maxWidth, maxHeight, preset, taps, halfResolution, blur, blurSharpness, network }.
   createNnao(options) {
     const { library } = this;
     return makeOnSurface(Nnao, library, this.surface, "nook_nnao_create", () => {
@@ -124,7 +124,7 @@ export class Gl extends OnSurface {
       };
     });
   }
-  // A probe or a grid in a form: "lobes" (default), "sh" or "zh3".
+  // Uploads a probe or a grid. form: "lobes" (default), "sh" or "zh3".
   uploadProbe(probe, form = "lobes") {
     const { library } = this;
     return makeOnSurface(Upload, library, this.surface, "nook_gl_upload_probe", () => {
@@ -148,14 +148,15 @@ export class Upload extends OnSurface {
   constructor(library, handle, surface) {
     super(library, handle, "nook_gl_upload_destroy", surface);
   }
-  // Replaces the probe of an upload of a probe.
+  // Replaces the probe. Only for uploads of probes.
   update(probe) {
     const { library } = this;
     const name = "nook_gl_update_probe";
     this.surface.current(name, () => library.call(name, () => library.check(
       library.module._nook_gl_update_probe(this.handle, library.handleOf(probe, "probe", Probe, "Probe")))));
   }
-  // { textures: { target, texture, uniform } each, bytes, glsl, constant, constantValues, constantVec4s, walls }.
+  // Returns { textures, bytes, glsl, constant, constantValues, constantVec4s, walls }. Each texture is { target, texture,
+  // uniform }.
   get info() {
     this.surface.alive("nook_gl_upload_describe");
     const info = this.library.info("nook_gl_upload_describe", "nook_gl_upload_info", (at) => this.library.module._nook_gl_upload_describe(this.handle, at));
@@ -163,7 +164,7 @@ export class Upload extends OnSurface {
       .map((each) => ({ ...each, texture: this.surface.object("textures", each.texture) }));
     return { ...info, textures };
   }
-  // Prepares a draw with a program of the host: leaves the program in use, and the textures bound from unit firstUnit on.
+  // Prepares a draw with a program of the host. Leaves the program in use, and the textures bound from unit firstUnit on.
   bind(program, firstUnit = 0) {
     this.surface.alive("nook_gl_upload_bind");
     checkWebGL("nook_gl_upload_bind", "program", program, ["WebGLProgram"]);

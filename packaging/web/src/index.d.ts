@@ -78,7 +78,7 @@ export interface Pose {
   /** Bytes between transforms; 0: tightly packed. */
   stride?: number;
   transformCount?: number;
-  /** For "skinning": the index in the file of the skin that the matrices belong to. */
+  /** For "skinning": the file's index of the skin to which the matrices belong. */
   skin?: number;
   /** For each bone of the model, the index of its transform, or -1 for none. See CharacterModel.mapBones. */
   transformOfBone?: Numbers;
@@ -344,7 +344,7 @@ export interface ProbeInfo {
   counts: Uint32Array;
   originWs: Float32Array;
   spacingWs: Float32Array;
-  /** Cells in which walls choose among the probes; 0: a grid without walls. */
+  /** Cells in which walls select the probes that light a point; 0: a grid without walls. */
   wallCells: number;
 }
 export interface ProbeFitOptions {
@@ -401,7 +401,7 @@ export class Probe extends Owned {
 /** A probe, a grid or a material as textures, and the GLSL that reads them. */
 export class Upload extends Owned {
   private constructor();
-  /** Uploads another probe in place of the present one. Only for uploads of probes. */
+  /** Replaces the probe. Only for uploads of probes. */
   update(probe: Probe): void;
   readonly info: {
     /** Bind each texture to a unit without a sampler object, and set its uniform to the unit. Or call bind(). */

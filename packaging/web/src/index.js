@@ -22,7 +22,7 @@ async function readFile(url) {
 
 const isBytes = (value) => ArrayBuffer.isView(value) || Object.prototype.toString.call(value) === "[object ArrayBuffer]";
 
-// The module and an instance of it.
+// Returns the module and an instance of it.
 async function compile(wasm, imports) {
   const source = await (wasm ?? new URL("./nook.wasm", import.meta.url));
   if (source instanceof WebAssembly.Module) return { module: source, instance: await WebAssembly.instantiate(source, imports) };

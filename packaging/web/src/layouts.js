@@ -55,7 +55,7 @@ export class Layouts {
     return this.structs.get(name);
   }
 
-  // The number of a constant of a group of bits, such as that of NOOK_TERM_SELF.
+  // Returns the sum of constants of a group of bits, such as NOOK_TERM_SELF.
   bits(first, names, call) {
     const { numbers } = this.constants.get(`bits ${first}`);
     return names.reduce((sum, name) => sum | this.number(numbers, name, "a bit", call), 0);
@@ -67,8 +67,8 @@ export class Layouts {
     return value;
   }
 
-  // Checks the members that `values` has and are not undefined, for the function `call`: the fields with what is written to them.
-  // Addresses are numbers here; a function gives its address when it is written.
+  // Checks the members of `values` that are not undefined, for the function `call`. Returns pairs of a field and the value to
+  // write. For an address, the value is a number, or a function that returns the address when the struct is written.
   check(struct, values, call = "nook-web") {
     const checked = [];
     for (const [name, given] of Object.entries(values)) {

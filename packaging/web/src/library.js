@@ -84,7 +84,7 @@ export class Library {
     throw new NookError(module.UTF8ToString(module._nook_last_message()), module.UTF8ToString(module._nook_result_name(result)));
   }
 
-  // The name of the outermost call, for messages.
+  // Returns the name of the outermost call, for messages.
   get name() {
     return this.room.call;
   }
@@ -106,7 +106,7 @@ export class Library {
     return this.prepared(name, values)();
   }
 
-  // A struct of zeros, whose size stands in struct_size if it has one, then with `values`.
+  // Makes a struct of zeros, sets struct_size if it has this field, and then writes `values`.
   struct(name, values = {}) {
     const struct = this.layouts.struct(name);
     const checked = this.layouts.check(struct, values, this.name);
@@ -121,7 +121,8 @@ export class Library {
     return this.layouts.read(this.layouts.struct(name), address);
   }
 
-  // The handle of an object that a call takes. Kind is its class, word the class's name, which bundlers may change.
+  // Returns the handle of an object that is passed to a call. Kind is its class. `word` is the name of the class, because
+  // bundlers may rename the class.
   handleOf(value, argument, Kind, word) {
     const call = this.name;
     if (!(value instanceof Kind)) refuse(call, `${argument} needs a ${word} (got ${described(value)})`);
@@ -129,7 +130,7 @@ export class Library {
     return value.handle;
   }
 
-  // What a function of the form (handle, ..., info*) writes. struct: the name of the info.
+  // Calls a function of the form (handle, ..., info*), and returns what it has written. `struct` is the name of the info.
   info(name, struct, call, values) {
     return this.call(name, () => {
       const address = this.struct(struct, values);
@@ -138,7 +139,7 @@ export class Library {
     });
   }
 
-  // What a function of the form (..., handle* out) makes.
+  // Calls a function of the form (..., handle* out), and returns the handle.
   made(call) {
     const out = this.room.take(4);
     this.module.HEAPU32[out >> 2] = 0;
@@ -159,7 +160,7 @@ export class Library {
     return this.room.take(4 * count);
   }
 
-  // Copies of numbers in memory, which the caller has checked; 0 for null and undefined.
+  // Copies numbers, which the caller has checked, to memory. Returns 0 for null and undefined.
   floats(values) {
     if (!values) return 0;
     const address = this.room32(values.length);
@@ -185,7 +186,7 @@ export class Library {
     return this.integers(values.map((text) => (text === null ? 0 : this.bytes(encoder.encode(`${text}\0`)).address)));
   }
 
-  // Calls a function of the form (..., float* out, count): `out` takes the numbers, or a new array does.
+  // Calls a function of the form (..., float* out, count). Writes the numbers to `out`, or to a new array if there is no `out`.
   readFloats(name, count, out, call) {
     return this.call(name, () => {
       checkOut(this.name, out, count);

@@ -9,8 +9,8 @@ export class Material extends Owned {
   get info() {
     return this.library.info("nook_material_describe", "nook_material_info", (info) => this.library.module._nook_material_describe(this.handle, info));
   }
-  // Decodes { uv, dx, dy, view, light } each, with that many fetches along the pixel: { radiance, occlusion, visibility }. Without dx
-  // and dy, a pixel has no size and sees the finest level.
+  // Decodes pixels, each { uv, dx, dy, view, light }, with `fetches` fetches along each pixel. Returns { radiance, occlusion,
+  // visibility }. Without dx and dy, a pixel has no size and reads the finest level.
   evaluate(pixels, fetches = 1) {
     const { library } = this;
     return library.call("nook_material_evaluate", () => {

@@ -7,7 +7,7 @@ export class Nnao extends OnSurface {
     super(library, handle, "nook_nnao_destroy", surface);
   }
 
-  // { texture, textureBytes, taps, ... }; texture is the result where the target is the pass's own.
+  // Returns { texture, textureBytes, taps, ... }. `texture` has the result if the target is the pass's own texture.
   get info() {
     this.surface.alive("nook_nnao_describe");
     const info = this.library.info("nook_nnao_describe", "nook_nnao_info", (at) => this.library.module._nook_nnao_describe(this.handle, at));
@@ -17,8 +17,9 @@ export class Nnao extends OnSurface {
     return this.info.texture;
   }
 
-  // The members of nook_gl_frame_desc and nook_nnao_frame_desc in camelCase. depthTexture, normalTexture, gbufferAoTexture and motionVectors are
-  // WebGLTextures; target is a WebGLTexture, a WebGLFramebuffer, null for the canvas, or nothing for the pass's own texture.
+  // `description` has the members of nook_gl_frame_desc and nook_nnao_frame_desc in camelCase. depthTexture, normalTexture,
+  // gbufferAoTexture and motionVectors are WebGLTextures. target is a WebGLTexture, a WebGLFramebuffer, null for the canvas, or
+  // undefined for the pass's own texture.
   render(description) {
     const { library, surface } = this, call = "nook_nnao_render";
     surface.alive(call);

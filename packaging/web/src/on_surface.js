@@ -14,7 +14,8 @@ export class OnSurface extends Owned {
   }
 }
 
-// Makes an object of class Kind on a surface. prepare() checks the arguments, and gives call(out), which calls the function `name`.
+// Makes an object of class Kind on a surface. prepare() checks the arguments, and returns call(out), which calls the function
+// `name`.
 export function makeOnSurface(Kind, library, surface, name, prepare) {
   surface.addUser();
   try {

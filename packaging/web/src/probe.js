@@ -1,7 +1,7 @@
 import { checkIndex, checkList, checkNumber, checkNumbers, checkObject } from "./arguments.js";
 import { Owned } from "./library.js";
 
-// Checks lobes, and gives a function that makes an array of nook_lobe of them.
+// Checks lobes, and returns a function that makes an array of nook_lobe from them.
 export function preparedLobes(library, lobes) {
   const { layouts, name: call } = library;
   const struct = layouts.struct("nook_lobe");
@@ -20,7 +20,7 @@ export function preparedLobes(library, lobes) {
   };
 }
 
-// A position for each direction, of one that is for all; undefined stays so.
+// Repeats a single position for each direction. Returns other positions unchanged, and undefined if there is none.
 function forEach(call, position, argument, directions) {
   checkNumbers(call, argument, directions, { groupsOf: 3 });
   if (position?.length !== 3)
@@ -30,7 +30,7 @@ function forEach(call, position, argument, directions) {
   return Float32Array.from(directions, (_, i) => position[i % 3]);
 }
 
-// A light probe or a grid of them; see nook_probe.h.
+// A light probe, or a grid of light probes; see nook_probe.h.
 export class Probe extends Owned {
   constructor(library, handle) {
     super(library, handle, "nook_probe_destroy");
@@ -39,11 +39,11 @@ export class Probe extends Owned {
     return this.library.info("nook_probe_describe", "nook_probe_info", (info) => this.library.module._nook_probe_describe(this.handle, info));
   }
 
-  // The lobes at a point, or those of the first probe: { axis, sharpness, amplitude } each.
+  // Returns the lobes at a point, or the lobes of the first probe, each as { axis, sharpness, amplitude }.
   lobes(position) {
     return this.#readLobes("nook_probe_read_lobes", position);
   }
-  // The same for glossy reflection, with amplitudes that are never negative.
+  // Like lobes(), but for glossy reflection: amplitudes are never negative.
   glossLobes(position) {
     return this.#readLobes("nook_probe_read_gloss", position);
   }
@@ -59,7 +59,7 @@ export class Probe extends Owned {
     });
   }
 
-  // Three floats for each function of a probe of the grid.
+  // Returns three floats for each function of a probe of the grid.
   coefficients(index = 0) {
     checkIndex("nook_probe_read_coefficients", "index", index);
     const { library } = this;
@@ -68,7 +68,7 @@ export class Probe extends Owned {
       library.module._nook_probe_read_coefficients(this.handle, index, address, count)));
   }
 
-  // Three floats for each direction or normal. The position is one for all, or one for each.
+  // These functions return three floats for each direction or normal. Pass one position for all of them, or one for each.
   radiance(directions, position) {
     return this.#evaluate("nook_probe_radiance", "directions", directions, position);
   }
@@ -85,7 +85,7 @@ export class Probe extends Owned {
   }
 }
 
-// Least squares of lobes, while samples of radiance arrive.
+// Fits lobes by least squares while samples of radiance arrive.
 export class ProbeFit extends Owned {
   constructor(library, handle) {
     super(library, handle, "nook_probe_fit_destroy");
@@ -114,7 +114,7 @@ export class ProbeFit extends Owned {
   get info() {
     return this.library.info("nook_probe_fit_describe", "nook_probe_fit_info", (info) => this.library.module._nook_probe_fit_describe(this.handle, info));
   }
-  // The probe of the samples so far.
+  // Returns a probe from the samples so far.
   solve() {
     const { library } = this;
     return new Probe(library, library.call("nook_probe_fit_solve", () =>

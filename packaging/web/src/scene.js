@@ -21,7 +21,7 @@ export class Scene extends Owned {
   #modelOf(model) {
     return this.library.handleOf(model, "model", CharacterModel, "CharacterModel");
   }
-  // Calls a function that takes instances or other numbers of the scene, [argument, value] each.
+  // Calls a function that takes instances or other numbers of the scene. `numbers` are pairs [argument, value].
   #ofNumbers(name, numbers, call) {
     return this.library.call(name, () => {
       for (const [argument, value] of numbers) checkIndex(name, argument, value);
@@ -52,7 +52,8 @@ export class Scene extends Owned {
     return this.#vertices.get(instance) ?? 0;
   }
 
-  // The transforms that the host has, such as skinning matrices of glTF: { kind: "skinning", layout: "columns-4x4", transforms }.
+  // Pass transforms that the host already has, such as skinning matrices of glTF: { kind: "skinning", layout: "columns-4x4",
+  // transforms }.
   setPose(instance, pose) {
     const { library } = this;
     library.call("nook_scene_set_pose", () => {
@@ -110,7 +111,7 @@ export class Scene extends Owned {
     this.#ofNumbers("nook_scene_remove_occluder", [["occluder", occluder]], (id) => this.library.module._nook_scene_remove_occluder(this.handle, id));
   }
 
-  // lobes: { axis, sharpness, amplitude } each, such as those of Probe.lobes(); null for no light.
+  // lobes: an array of { axis, sharpness, amplitude }, such as the result of Probe.lobes(); null for no light.
   setLight(instance, lobes) {
     this.#ofNumbers("nook_scene_set_light", [["instance", instance]], (id) => {
       const array = lobes === null ? () => 0 : preparedLobes(this.library, lobes);
@@ -134,7 +135,7 @@ export class Scene extends Owned {
     this.#check(library.module._nook_scene_set_terms(this.handle, bits));
   }
 
-  // Evaluates everything on the CPU; Gl.update does it on the GPU instead.
+  // Evaluates everything on the CPU. Gl.update does this on the GPU.
   update() {
     this.#check(this.library.module._nook_scene_update(this.handle));
   }

@@ -34,7 +34,7 @@ export class Surface {
     canvas?.addEventListener?.("webglcontextlost", () => (this.#isLost = true), { once: true });
   }
 
-  // Whether the context was lost since the surface was made.
+  // Returns whether the context was lost since the surface was made.
   get isLost() {
     this.#isLost ||= this.#context.isContextLost?.() === true;
     return this.#isLost;
@@ -47,7 +47,7 @@ export class Surface {
       "everything that it made, and make all of them again, beginning with createGl", "NOOK_ERROR_GL");
   }
 
-  // The context is lost, and has no objects any more.
+  // Call this when the context is lost: it has no objects any more.
   lose() {
     this.#isLost = true;
     this.forget();
@@ -98,7 +98,7 @@ export class Surface {
   object(table, name) {
     return this.#own[table][name] ?? null;
   }
-  // The number of objects in the tables.
+  // Returns the number of objects in the tables.
   get objectCount() {
     return Object.values(this.#own).reduce((sum, table) => sum + table.filter(Boolean).length, 0);
   }
