@@ -9,8 +9,9 @@
 # A library with the property NOOK_PROGRAM_PART is compiled like a program.
 #
 # All targets with the same flags share one precompiled header. Only libraries have position-independent code, so libraries
-# and programs have different headers. Each target below compiles one empty source, and the other targets reuse its header.
-
+# All targets with the same flags share one precompiled header. Libraries and programs have different options for
+# position-independent code, so they have different headers. Each target below compiles one empty source, and the other
+# targets reuse its header.
 # nook_precompiled(NAME TYPE HEADER...): the headers, compiled with the flags of all targets. If targets have sources in C,
 # CMake also requires a header for C.
 function(nook_precompiled name type)

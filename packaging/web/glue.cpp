@@ -1,5 +1,5 @@
 // Code that JavaScript needs in addition to the library's own functions: the loader of WebGL functions, a
-// log, and tables in memory with the layouts of structs and the values of constants.
+// log, and two tables in memory. The tables have the layouts of structs and the values of constants.
 #include <emscripten.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_lod.h>

@@ -126,7 +126,7 @@ def farthest(entry, found):
 
 
 def take_pose(entry, way, actions):
-    """Evaluates one pose on a new stage, and returns the still."""
+    """Takes a still of one pose, on a new stage."""
     kind, name, value = way
     with stage.opened(entry.armature, entry.items) as played:
         if kind == "turned":

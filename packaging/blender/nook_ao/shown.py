@@ -80,7 +80,7 @@ class Shown:
         return 1e-4 * float(np.linalg.norm(self.character.bounds[1] - self.character.bounds[0]))
 
     def trace(self, pose, rays):
-        """Returns the AO of a pose, ray traced from the body only."""
+        """Returns the AO of a pose by ray tracing, where only the body itself occludes."""
         positions, normals = self.character.skin(pose)
         return self.nook.trace_ao([(positions, self.character.triangles())], positions, normals, rays=rays, origin_offset=self.ray_offset)
 

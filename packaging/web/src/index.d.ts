@@ -344,7 +344,7 @@ export interface ProbeInfo {
   counts: Uint32Array;
   originWs: Float32Array;
   spacingWs: Float32Array;
-  /** Cells in which walls select the probes that light a point; 0: a grid without walls. */
+  /** The number of cells in which walls select the probes that light a point; 0: a grid without walls. */
   wallCells: number;
 }
 export interface ProbeFitOptions {

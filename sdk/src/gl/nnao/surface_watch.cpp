@@ -91,28 +91,25 @@ void SurfaceWatch::report(const Device& device, int question) const {
     case NOOK_WATCH_UNMASKED:
       context.log(NOOK_LOG_WARNING,
                   "nook_gl: an earlier frame got no AO from the pass, because the mask covers every surface: "
-                  "the green "
-                  "channel of frame.gbuffer_ao_texture %u is 1 at all of them (with frame.gbuffer_ao %d); "
-                  "clear green "
-                  "to 0 where the pass should darken, such as on floors",
+                  "the green channel of frame.gbuffer_ao_texture %u is 1 at every surface (with "
+                  "frame.gbuffer_ao %d); clear green to 0 where the pass should darken, such as on floors",
                   frame_.gbuffer_ao_texture, frame_.gbuffer_ao);
       return;
     case NOOK_WATCH_FAR_ENOUGH:
       context.log(
           NOOK_LOG_WARNING,
-          "nook_gl: at almost all surfaces of an earlier frame, the radius is larger than the picture is "
-          "high "
-          "(got %g units of view space); give the radius in the unit of frame.projection, such as 0.5 in "
-          "metres, and check that the projection's near and far plane are those that drew the depth",
+          "nook_gl: at almost all surfaces of an earlier frame, the radius is larger than the height of the "
+          "picture (got %g units of view space); give the radius in the unit of frame.projection, such as 0.5 "
+          "in metres, and check that the depth was drawn with the projection's near and far plane",
           radius);
       return;
     case NOOK_WATCH_NEAR_ENOUGH:
       context.log(
           NOOK_LOG_WARNING,
           "nook_gl: at almost all surfaces of an earlier frame, the radius is smaller than two pixels, so "
-          "that AO is hardly seen (got %g units of view space); give the radius in the unit of "
-          "frame.projection, such as 50 in centimetres, and check that the projection's near and far plane "
-          "are those that drew the depth",
+          "that AO is hardly visible (got %g units of view space); give the radius in the unit of "
+          "frame.projection, such as 50 in centimetres, and check that the depth was drawn with the "
+          "projection's near and far plane",
           radius);
       return;
     default:
