@@ -1,4 +1,4 @@
-"""Conan 2 recipe of the library. It builds the checkout that it lies in: conan create packaging/conan"""
+"""Conan 2 recipe of the library. It builds the checkout that contains it: conan create packaging/conan"""
 import os
 import re
 import shutil

@@ -43,7 +43,7 @@ struct Controls {
   }
 };
 
-// Numbers that are typed into a slider are clamped as well.
+// Numbers that are typed into a slider are also clamped.
 void show_controls(Controls& c, const nook_scene_info& info, float width) {
   constexpr ImGuiSliderFlags clamped = ImGuiSliderFlags_AlwaysClamp;
   // A row of boxes wraps if the panel is too narrow.

@@ -243,7 +243,7 @@ bool is_lower_level(const std::string& name) {
   return std::regex_match(name, level);
 }
 
-// The nodes of the scene without those that a bake leaves out.
+// Returns the nodes of the scene, except the nodes that a bake leaves out.
 std::vector<bool> shown_nodes(const tinygltf::Model& model, const std::vector<std::string>& without,
                               const CharacterFile& out) {
   std::vector<bool> shown(out.nodes.size(), model.scenes.empty()), hidden(out.nodes.size());

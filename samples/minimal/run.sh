@@ -1,5 +1,5 @@
 #!/bin/sh
-# Builds the library without its OpenGL half and runs the two smallest programs, on the model that lies beside them.
+# Builds the library without its OpenGL half and runs the two smallest programs, on the model in the same folder.
 # It needs a compiler, CMake and Ninja, and no bake.
 #   samples/minimal/run.sh [MODEL.nook]
 set -eu

@@ -80,7 +80,7 @@ class ComputeTier final : public Tier {
   Object colours_[kernel_form_count];  // its OpenGL name is 0 until an instance has a light
   Object colours_spread_;
   Object lit_vertices_, grey_vertices_;
-  Object convert_poses_, place_poses_;  // its OpenGL name is 0 until a pose is on the GPU
+  Object convert_poses_, place_poses_;  // their OpenGL names are 0 until a pose is on the GPU
   Object decode_clips_;                 // its OpenGL name is 0 until clips are on the GPU
   List<ComputeModel> models_;
   List<ComputeScene> scenes_;  // destroyed before the models that their chunks use

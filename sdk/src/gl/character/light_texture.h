@@ -17,7 +17,7 @@ struct LightTexel {
 
 // Returns the number of texels of a light; 0 if the instance has no light.
 std::uint32_t light_texels(const InstanceLight& light);
-// Writes the texels of a light, whose number light_texels returns.
+// Writes the texels of a light. light_texels returns their number.
 void write_light(const Instance& instance, LightTexel* out);
 
 class LightTexture {

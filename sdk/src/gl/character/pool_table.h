@@ -30,7 +30,7 @@ class PoolTable {
   // Makes room for at least `entries` entries. A new buffer replaces a smaller one and keeps its entries.
   // Throws Failure or std::bad_alloc, and then nothing has changed.
   void make(Device& device, std::size_t entries, std::size_t wanted);
-  // Writes the entries that differ from those in the buffer. entry_of(i) returns entry i.
+  // Writes the entries that differ from the entries in the buffer. entry_of(i) returns entry i.
   template <class EntryOf>
   void write(const Device& device, std::size_t entries, const EntryOf& entry_of) noexcept {
     std::size_t begin = 0, end = 0;  // the changed range that is not sent yet

@@ -125,7 +125,7 @@ NnaoPass::NnaoPass(Device& device, const NnaoSettings& desc, const nnao::Network
   make_textures(network.form);
   if (network.form == nnao::NetworkForm::paper) upload_filters(network);
   // The initial colour is fully open: AO is 1, in red or in alpha. In a pass with bent normals, the initial
-  // normal is the direction to the viewer.
+  // bent normal is the direction to the viewer.
   const GLfloat aside = desc.bent_normals ? 0.5f : 1;
   make_objects({aside, aside, 1, 1});
   if (desc.timers && !device.gl.can.timestamps)

@@ -98,8 +98,8 @@ void SurfaceWatch::report(const Device& device, int question) const {
     case NOOK_WATCH_FAR_ENOUGH:
       context.log(
           NOOK_LOG_WARNING,
-          "nook_gl: at almost all surfaces of an earlier frame, the radius is larger than the height of the "
-          "picture (got %g units of view space); give the radius in the unit of frame.projection, such as 0.5 "
+          "nook_gl: at almost all surfaces of an earlier frame, the radius is larger than the picture's "
+          "height (got %g units of view space); give the radius in the unit of frame.projection, such as 0.5 "
           "in metres, and check that the depth was drawn with the projection's near and far plane",
           radius);
       return;
