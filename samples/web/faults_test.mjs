@@ -70,7 +70,7 @@ try {
   expect(moved.turn > state.turn && moved.distance < state.distance && !moved.on, "keys turn and move the camera, and switch AO");
   await chromium.evaluate("new Promise((done) => setTimeout(done, 600))");
   const address = await chromium.evaluate("location.search");
-  expect(/on=false/.test(address) && /turn=33/.test(address) && /count=1(&|$)/.test(address), `the address keeps it: ${address}`);
+  expect(/on=false/.test(address) && /turn=33/.test(address) && /count=1(&|$)/.test(address), `the address stores the state: ${address}`);
   for (let i = 0; i < 2; ++i) {
     const { most, error } = await chromium.evaluate("nookPage.checks.loss(1.3)");
     expect(most === 0 && error === 0, `loss ${i + 1}: the picture differs by ${most} of 255, WebGL error ${error}`);
@@ -82,7 +82,7 @@ try {
     page.changed("azimuth");
     return page.draw(1) === false && !page.failed;
   })()`);
-  expect(skipped, "a frame and a change of the light in a lost context do nothing");
+  expect(skipped, "in a lost context, drawing a frame and changing the light do nothing");
 } catch (error) {
   expect(false, error.message);
 } finally {

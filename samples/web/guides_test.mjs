@@ -60,7 +60,7 @@ async function bundle(section) {
     if (kind === "sh") said += run(text, folder);
     else writeFileSync(join(folder, file), file === "main.js" ? text + answer : text);
   const warnings = said.split("\n").filter((line) => /\bwarn(ing)?\b/i.test(line) && !/^npm warn /i.test(line));
-  expect(warnings.length === 0, `${name}: warnings: ${warnings.length}${warnings.map((line) => `\n      ${line}`).join("")}`);
+  expect(warnings.length === 0, `${name}: ${warnings.length} warnings${warnings.map((line) => `\n      ${line}`).join("")}`);
   const dist = join(folder, "dist");
   copyFileSync(model, join(dist, "character.nook"));
   if (!readdirSync(dist).includes("index.html")) writeFileSync(join(dist, "index.html"), "<!doctype html><script type=module src=main.js></script>\n");
@@ -173,6 +173,6 @@ try {
 }
 // The examples for bundlers have no icon.
 const lines = chromium.console.filter((line) => !line.includes("/favicon.ico"));
-expect(lines.length === 0, `errors and warnings of the console: ${lines.length}`);
+expect(lines.length === 0, `errors and warnings on the console: ${lines.length}`);
 for (const line of lines) console.log(`    ${line}`);
 process.exitCode = failures ? 1 : 0;

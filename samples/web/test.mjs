@@ -40,7 +40,7 @@ try {
   check("AO of WebGL against the CPU in WebAssembly", characters.gpuCpu, characters.gpuCpu <= 2e-3, "<= 2e-3");
   check("AO of the CPU in WebAssembly against native", characters.cpuNative, characters.cpuNative <= 1.2e-4, "<= 1.2e-4");
   check("directional occlusion of WebGL against the CPU", characters.directional, characters.directional <= 4e-3, "<= 4e-3");
-  check("mean AO of that scene", characters.mean, characters.mean > 0.2 && characters.mean < 0.8, "0.2 to 0.8");
+  check("mean AO of this scene", characters.mean, characters.mean > 0.2 && characters.mean < 0.8, "0.2 to 0.8");
 
   const screen = await call("screenFiles");
   check("screen pass: share of pixels within 1/255 of the reference", screen.share, screen.share >= 0.999, ">= 0.999");
@@ -76,7 +76,7 @@ try {
   // SwiftShader draws on the CPU. The frames are small so that many of them are drawn.
   await chromium.size(width / 4, height / 4);
   const crowd = await call("frames", Math.min(5, seconds));
-  check("50 characters: frames a second, SwiftShader", crowd.count / crowd.seconds, crowd.errors === 0, "no error");
+  check("50 characters: frames per second, SwiftShader", crowd.count / crowd.seconds, crowd.errors === 0, "no error");
 
   await call("set", { count: 12, material: true, distance: 7.8, tilt: 15 });
   const frames = await call("frames", Number(seconds));
@@ -89,14 +89,14 @@ try {
   const loss = await call("loss", 1.3);
   check("lost context: largest difference of the picture, of 255", loss.most, loss.most === 0, "0");
   check("lost context: WebGL error", loss.error, loss.error === 0, "0");
-  check("lost context: objects afterwards less before", loss.objects - before, loss.objects === before, "0");
+  check("lost context: objects after minus before", loss.objects - before, loss.objects === before, "0");
 } catch (error) {
   check(`the test itself: ${error.message}`, "failed", false);
 } finally {
   await chromium.close();
   server.close();
 }
-check("errors and warnings of the console", chromium.console.length, chromium.console.length === 0, "0");
+check("errors and warnings on the console", chromium.console.length, chromium.console.length === 0, "0");
 for (const line of chromium.console) console.log(`    ${line}`);
 writeFileSync(join(results, "results.json"), `${JSON.stringify({ rows }, null, 1)}\n`);
 process.exitCode = rows.every(({ holds }) => holds) ? 0 : 1;

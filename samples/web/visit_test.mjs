@@ -35,7 +35,7 @@ async function visit() {
         late: modules.filter((name) => !preloads.has(name)), idle: [...preloads].filter((name) => !modules.includes(name)) };
     })()`);
     await chromium.until(ready, 120);
-    expect(chromium.console.length === 0, `errors and warnings of the console: ${chromium.console.length} ${chromium.console.join("; ")}`);
+    expect(chromium.console.length === 0, `errors and warnings on the console: ${chromium.console.length} ${chromium.console.join("; ")}`);
     return first;
   } finally {
     await chromium.close();

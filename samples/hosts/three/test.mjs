@@ -26,16 +26,16 @@ try {
   const plain = await run("plain");
   expect(plain.colours > 1000, `the picture has ${plain.colours} colours, more than 1,000`);
   expect(plain.repeat === 0, `three.js alone draws the same picture twice: largest difference ${plain.repeat} of 255`);
-  expect(plain.beside === 0, `the same picture with Nook at work: ${plain.beside} of 255`);
-  expect(plain.shareZero === 0, `the same picture by Nook's materials with no share of AO: ${plain.shareZero} of 255`);
+  expect(plain.beside === 0, `the same picture while Nook runs: ${plain.beside} of 255`);
+  expect(plain.shareZero === 0, `the same picture with Nook's materials and an AO share of 0: ${plain.shareZero} of 255`);
 
   const characters = await run("characters");
   // 2e-3 is half a step of 8 bits: below it no picture of 8 bits changes by more than one step.
   expect(characters.difference <= 2e-3,
     `AO on ${characters.vertices} vertices of 3 characters against the CPU: ${characters.difference.toExponential(2)}, at most 2e-3`);
-  expect(characters.least < 0.3 && characters.mean > 0.5, `least AO ${characters.least.toFixed(3)}, mean ${characters.mean.toFixed(3)}`);
+  expect(characters.least < 0.3 && characters.mean > 0.5, `smallest AO ${characters.least.toFixed(3)}, mean ${characters.mean.toFixed(3)}`);
   const worst = Math.max(...characters.poses.map(({ maxError }) => maxError));
-  expect(characters.poses.every(({ fault }) => fault === "none"), `poses against vertices that three.js skins: ${
+  expect(characters.poses.every(({ fault }) => fault === "none"), `poses compared with the vertices that three.js skins: ${
     characters.poses[0].fault}, largest distance ${worst.toExponential(2)} of the radius`);
 
   const dark = await run("darkening");
@@ -47,7 +47,7 @@ try {
   const screen = await run("screen");
   // Colours reach 2. At 2, a half float has steps of 2^-10, and the AO in the comparison has 8 bits.
   expect(screen.most <= 2 ** -10 + 2 / 255, `the pass multiplies colour by its AO: ${screen.most.toExponential(2)}`);
-  expect(screen.skyKept === 0, `the sky stays: ${screen.skyKept}`);
+  expect(screen.skyKept === 0, `the sky does not change: ${screen.skyKept}`);
   expect(screen.mean < 0.99 && screen.changed > 0.05, `mean AO ${screen.mean.toFixed(3)}, ${(100 * screen.changed).toFixed(0)} % of pixels change`);
 
   if (file) writeFileSync(file, Buffer.from(await chromium.evaluate("checks.pair()"), "base64"));
@@ -63,14 +63,14 @@ try {
   expect(life.restored === 0, `the same picture after frames in a lost context: ${life.restored} of 255`);
   expect(life.isOwn && life.removed > 0, `a removed character has its own geometry and material: ${life.removed} of 255`);
   expect(life.added === 0, `the same picture after it is added again: ${life.added} of 255`);
-  expect(life.best > 0 && life.same === 0, `options reach the pass: ${life.best} of 255 with ${life.taps} taps, ${life.same} without them again`);
+  expect(life.best > 0 && life.same === 0, `options reach the pass: ${life.best} of 255 with ${life.taps} taps, ${life.same} again without them`);
   const end = await run("end");
   expect(end.objects === 0 && end.characters === 0, `WebGL objects after dispose(): ${end.objects}`);
 
   await chromium.open(`${url}/`, width, height);
   await chromium.until("document.querySelector('canvas') !== null", 60);
   await chromium.evaluate("new Promise((done) => setTimeout(done, 3000))");
-  expect(chromium.console.length === 0, `lines of errors and warnings on the console: ${chromium.console.length}`);
+  expect(chromium.console.length === 0, `errors and warnings on the console: ${chromium.console.length}`);
   chromium.console.forEach((line) => console.log(`       ${line}`));
 } finally {
   await chromium.close();

@@ -236,7 +236,7 @@ void check_apart(const HostImages& images, std::uint32_t target, const char* tar
   for (const auto& input : inputs)
     if (input.name != 0 && input.name == target)
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "%s is also %s (got %u for both); a texture cannot be read and drawn into at once",
+                    "%s is %s as well (got %u for both); a texture cannot be read and drawn into at once",
                     input.field, target_field, target);
 }
 
