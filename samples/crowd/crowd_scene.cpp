@@ -108,8 +108,8 @@ void CrowdScene::set_camera(const glm::vec3& eye_ws) {
 }
 
 void CrowdScene::update(std::uint32_t terms) {
-  // For the check boxes of the window. set_terms is experimental, and an engine does not need it: all terms
-  // are on by default.
+  // The check boxes of the window use this. set_terms is experimental, and an engine does not need it: all
+  // terms are on by default.
   nook::set_terms(scene_, terms);
   gl_.update(scene_);
 }

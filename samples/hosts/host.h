@@ -17,7 +17,7 @@ struct Options {
   std::string clip;
   std::string path = "gpu";        // gpu, cpu: where Nook evaluates the vertices; none: without Nook; vtk:
                                    // vtkSSAOPass; traced: ray tracing
-  std::string show = "lit";        // lit, plain (no shader reads what Nook made) or ao
+  std::string show = "lit";        // lit, plain (no shader reads Nook's AO) or ao
   std::string state = "preserve";  // preserve, defaults or host
   bool orthographic = false;       // VTK only
   int width_px = 640, height_px = 480;

@@ -5,7 +5,7 @@ int whole_file_open(WholeFile* file, const char* path) {
   if (snprintf(file->path, sizeof file->path, "%s", path) >= (int)sizeof file->path) return 0;
   for (int i = 0; !file->stream && i < 100; ++i) {
     snprintf(file->part, sizeof file->part, "%s.nook-part-sample-%d", file->path, i);
-    file->stream = fopen(file->part, "wbx"); /* fails where there is a file of this name */
+    file->stream = fopen(file->part, "wbx"); /* fails if a file with this name exists */
   }
   return file->stream != NULL;
 }

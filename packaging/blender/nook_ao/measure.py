@@ -10,7 +10,7 @@ VISIBLE = 0.01
 # If the error of the colours exceeds the model's own error by more than this, the add-on looks for a reason.
 # The noise of the rays is smaller.
 ALLOWED = 0.01
-# As a share of the body's size. Points that are farther apart are on different surfaces.
+# A distance, as a share of the body's size. Points that are farther apart are on different surfaces.
 NEAR = 1e-3
 SHEAR = 1.02
 

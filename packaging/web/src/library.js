@@ -89,8 +89,8 @@ export class Library {
     return this.room.call;
   }
 
-  // Checks `values`, and returns a function that makes a descriptor: it has the library's defaults, overwritten by `values`. A call
-  // must prepare all its arguments before it makes the first one.
+  // Checks `values`, and returns a function that makes a descriptor with the library's defaults, overwritten by `values`.
+  // Prepare all arguments of a call before you make the first one.
   prepared(name, values = {}) {
     const struct = this.layouts.struct(name);
     const checked = this.layouts.check(struct, values, this.name);

@@ -30,7 +30,7 @@ try {
   expect(plain.shareZero === 0, `the same picture with Nook's materials and an AO share of 0: ${plain.shareZero} of 255`);
 
   const characters = await run("characters");
-  // 2e-3 is half a step of 8 bits: below it no picture of 8 bits changes by more than one step.
+  // 2e-3 is half a step of 8 bits. With a smaller difference, no 8-bit picture changes by more than one step.
   expect(characters.difference <= 2e-3,
     `AO on ${characters.vertices} vertices of 3 characters against the CPU: ${characters.difference.toExponential(2)}, at most 2e-3`);
   expect(characters.least < 0.3 && characters.mean > 0.5, `smallest AO ${characters.least.toFixed(3)}, mean ${characters.mean.toFixed(3)}`);

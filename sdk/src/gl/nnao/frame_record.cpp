@@ -168,8 +168,8 @@ nnao::Recording record_frame(Device& device, NnaoPass& pass, const nook_nnao_des
   if (frame.gbuffer_ao != NOOK_GBUFFER_AO_NONE)
     recording.layer = reader.read(frame.gbuffer_ao_texture, viewport, 2);
   recording.ao = ao_of(reader, pass, made_with, viewport);
-  // AO has 8 bits, but some drivers divide by 255 inexactly. So rounds each value to the nearest multiple of
-  // 1 / 255.
+  // AO has 8 bits, but some drivers divide by 255 inexactly. So each value is rounded to the nearest multiple
+  // of 1 / 255.
   for (float& ao : recording.ao) ao = std::round(255 * std::clamp(ao, 0.0f, 1.0f)) / 255;
   recording.width = std::uint32_t(viewport.width);
   recording.height = std::uint32_t(viewport.height);
