@@ -1,6 +1,7 @@
 /* The frame of main.c for an engine that has OpenGL 3.3 or newer: the result stays on the GPU.
  *
- * The OpenGL functions come in as pointers because this file includes no loader. An engine calls the functions of its own loader. */
+ * The OpenGL functions come in as pointers because this file includes no loader. An engine calls the
+ * functions of its own loader. */
 #include "samples/minimal/minimal_gl.h"
 
 /* ---- 1. Once for each OpenGL context ---- */
