@@ -73,9 +73,7 @@ void show_panel(Controls& c, const nook_scene_info& info) {
   const float line = ImGui::GetFontSize();
   ImGui::SetNextWindowPos(ImVec2(line, line), ImGuiCond_FirstUseEver);
   ImGui::Begin("Nook", nullptr, ImGuiWindowFlags_AlwaysAutoResize);
-  if (!ImGui::IsWindowFocused())
-    ImGui::SetWindowFocus();  // so that keys still reach the panel after a click
-                              // beside it
+  if (!ImGui::IsWindowFocused()) ImGui::SetWindowFocus();  // keys reach the panel after a click beside it
   // The name next to a slider is up to 10 line heights wide.
   const float width = std::clamp(room.x - 3 * line, 13 * line, 23 * line);
   ImGui::PushItemWidth(width - 11 * line);
