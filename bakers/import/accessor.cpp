@@ -105,7 +105,7 @@ struct Strided {
   std::size_t stride = 0;
 };
 
-// `count` elements of element_size bytes in a buffer view. Each must be inside the buffer.
+// Returns `count` elements of a buffer view. Fails if one of them is outside the view or its buffer.
 Strided checked_view(const tinygltf::Model& model, int view_index, std::size_t offset, std::size_t count,
                      std::size_t element_size, bool may_stride, const std::string& what) {
   if (view_index < 0 || static_cast<std::size_t>(view_index) >= model.bufferViews.size())
@@ -139,8 +139,8 @@ const tinygltf::Accessor& checked_accessor(const tinygltf::Model& model, int ind
   return model.accessors[index];
 }
 
-// Calls store(element, component, pointer) for each component of the first `most` elements, Dense data comes
-// first, then the sparse overrides. It is not called for elements that are not stored; these are zero.
+// Calls store(element, component, pointer) for each component of the first `most` elements. Dense data comes
+// first, then the sparse overrides. Elements that are not stored get no call; their values are zero.
 template <typename Prepare, typename Store>
 void visit(const tinygltf::Model& model, const tinygltf::Accessor& accessor, int wanted_components,
            std::size_t most, const std::string& what, Prepare prepare, Store store) {

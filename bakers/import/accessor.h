@@ -15,8 +15,9 @@ namespace nook::bake {
 // index.
 std::size_t element_count(const tinygltf::Model& model, int accessor, const std::string& what);
 
-// Components in a row as floats: normalised integers become [0, 1] or [-1, 1], plain integers keep their
-// value. Sparse accessors are resolved. `what` names the accessor in messages. Fails with BAD_FILE.
+// The components of all elements, one after another, as floats. Normalised integers become [0, 1] or [-1, 1];
+// other integers keep their value. Sparse accessors are resolved. `what` names the accessor in messages.
+// Fails with BAD_FILE.
 struct Floats {
   std::vector<float> value;
   std::size_t count = 0;

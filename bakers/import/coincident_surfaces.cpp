@@ -60,7 +60,7 @@ struct Sample {
 
 constexpr std::size_t most_hits = 16;
 
-// A tree of boxes over samples in the order of the leaves.
+// A bounding-box tree over samples. It sorts the samples by leaf.
 class SampleTree {
  public:
   explicit SampleTree(std::vector<Sample>& samples) : samples_(samples) {
@@ -148,7 +148,7 @@ void add_samples(const Mesh& mesh, std::size_t part, std::size_t count, std::vec
     const double own = 0.5 * double(length(face));
     for (; made < count && (double(made) + 0.5) / double(count) * area <= before + own; ++made) {
       if (!(own > 0)) continue;
-      // The two-dimensional sequence of the plastic number, folded into the triangle.
+      // Uses the quasi-random sequence of the plastic number, and folds it into the triangle.
       float u = float(std::fmod(0.5 + 0.7548776662466927 * double(made), 1.0));
       float v = float(std::fmod(0.5 + 0.5698402909980532 * double(made), 1.0));
       if (u + v > 1) u = 1 - u, v = 1 - v;
@@ -229,11 +229,11 @@ void find_hits(const Mesh& mesh, std::vector<Sample>& samples) {
   }
 }
 
-// A node. If two primitives of one node are compared, it is a primitive.
+// A whole node, or one of its primitives when primitives of the same node are compared.
 using Surface = std::array<std::uint32_t, 2>;
 constexpr std::uint32_t whole_node = ~0u;
 
-// Sums over those samples of one surface that hit another surface. Heights are in units of the reach.
+// Sums over the samples of one surface that hit another surface. Heights are in units of the reach.
 struct Contact {
   double area = 0, height = 0, height_square = 0;
 };
@@ -299,8 +299,8 @@ std::set<std::array<float, 3>> places_of(const Mesh& mesh, const Surface& surfac
   return places;
 }
 
-// Returns true if half of the vertices of one surface are also vertices of the other. This finds levels of
-// detail that keep some of the vertices of a convex body. They lie inside the body and do not cross its
+// Returns true if half of the vertices of one surface are also vertices of the other. This finds a level of
+// detail that keeps some vertices of a convex body. Such a level lies inside the body and does not cross its
 // surface.
 bool share_vertices(const Mesh& mesh, const Surface& a, const Surface& b) {
   std::set<std::array<float, 3>> few = places_of(mesh, a), many = places_of(mesh, b);
@@ -319,7 +319,7 @@ bool have_equal_counts(const Mesh& mesh, const Surface& a, const Surface& b) {
 }
 
 // Returns true for a copy or a level of detail. Clothes on a body and pictures on a wall do not match,
-// because they stay on one side and cover only a part of it.
+// because they stay on one side of the other surface and cover only a part of it.
 bool is_coincident(const Mesh& mesh, const Surface& a, const Surface& b, const Contact& from_a,
                    const Contact& from_b, const float (&cover)[2]) {
   const double area = from_a.area + from_b.area;
@@ -351,7 +351,7 @@ std::vector<CoincidentPair> pairs_of(const Mesh& mesh, Contacts sum) {
     std::size_t of_a = 0, of_b = 0;
     for_each_triangle(mesh, a, [&](std::size_t) { ++of_a; });
     for_each_triangle(mesh, b, [&](std::size_t) { ++of_b; });
-    // Of two copies, the one outside darkens the other.
+    // The outer one of two copies darkens the inner one.
     const bool b_is_inside = there.height < 0 && here.height > 0;
     if (of_a < of_b || (of_a == of_b && b_is_inside)) std::swap(a, b), std::swap(cover[0], cover[1]);
     out.push_back({{a[0], b[0]}, {a[1], b[1]}, {cover[0], cover[1]}});
@@ -385,8 +385,8 @@ std::map<Surface, double> volumes_of(const Mesh& mesh) {
   return volume;
 }
 
-// The share of each surface that faces any other surface, and whose back is free: of nodes other nodes, of
-// primitives also primitives of the same node.
+// Returns the share of each surface's area that faces another surface and has nothing behind it. For a node,
+// only surfaces of other nodes count. For a primitive, other primitives of its node count too.
 std::map<Surface, double> facing_shares(const Mesh& mesh, const std::vector<Sample>& samples) {
   std::map<Surface, double> share, area = areas_of(mesh, samples);
   for (const Sample& sample : samples) {
@@ -405,10 +405,10 @@ std::map<Surface, double> facing_shares(const Mesh& mesh, const std::vector<Samp
   return share;
 }
 
-// Returns surfaces that face other surfaces over nearly their whole area. Linings are not among them, because
-// they have cloth behind them. Sockets are not either, because a socket surrounds only a part of its ball.
+// Returns surfaces that face other surfaces over nearly their whole area. Linings are left out, because they
+// have cloth behind them. Sockets are left out, because a socket surrounds only a part of its ball.
 std::vector<Surface> facing_surfaces(const Mesh& mesh, const std::vector<Sample>& samples) {
-  // At the edges of the body, the hull is larger than the body by their distance, so its share is below 1.
+  // A hull is larger than its body, so its edges face nothing and its share is below 1.
   constexpr double least = 0.8;
   std::vector<Surface> out;
   const std::map<Surface, double> shares = facing_shares(mesh, samples);
@@ -420,7 +420,8 @@ std::vector<Surface> facing_surfaces(const Mesh& mesh, const std::vector<Sample>
   return out;
 }
 
-// The surfaces among those which face inwards, with the largest surface inside: a hull may surround several.
+// Returns the facing surfaces that enclose a negative volume. A hull may surround several surfaces; the
+// result names the largest one.
 std::vector<OutlineHull> hulls_of(const Mesh& mesh, const std::vector<Sample>& samples) {
   constexpr double least_of_body = 0.5;  // the hull does not cover inner surfaces, such as mouths
   std::map<Surface, OutlineHull> found;

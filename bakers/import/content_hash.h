@@ -31,7 +31,7 @@ class ContentHash {
     add(std::uint64_t(text.size()));
     hash_.add(std::as_bytes(std::span(text)));
   }
-  // The elements have no padding: numbers, or arrays of numbers of one type.
+  // The element type must not have padding. Use numbers, or arrays of numbers of one type.
   template <class Element>
   void add_list(std::span<const Element> list) {
     static_assert(std::is_trivially_copyable_v<Element>);

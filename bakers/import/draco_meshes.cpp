@@ -68,8 +68,8 @@ std::pair<const char*, std::size_t> source_of(const tinygltf::Model& model, int 
   return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
 }
 
-// Errors that the library reports become Failures. Its exceptions on damaged data, such as a failed
-// allocation, also become Failures.
+// Errors that the library reports become Failures. Exceptions that it throws on damaged data, such as a
+// failed allocation, also become Failures.
 std::unique_ptr<draco::Mesh> decode(std::pair<const char*, std::size_t> source, const std::string& what) {
   try {
     draco::DecoderBuffer buffer;

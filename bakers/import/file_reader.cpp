@@ -100,7 +100,7 @@ std::string percent_decoded(const std::string& uri) {
   return out;
 }
 
-// "2.0" as {2, 0}; glTF 1.0 may have a number there.
+// Reads "2.0" as {2, 0}. In glTF 1.0, the version may be a number instead of a string.
 bool read_version(const Json& value, int& major, int& minor) {
   const std::string text = value.is_string()   ? value.get<std::string>()
                            : value.is_number() ? value.dump()
@@ -211,7 +211,7 @@ std::vector<std::size_t> nodes_of_two_transforms(const Json& document) {
   return out;
 }
 
-// The primitives of all meshes that Draco compresses and that have indices.
+// Returns the primitives of all meshes that have indices and are compressed by Draco.
 std::vector<Json*> draco_primitives(Json& document) {
   std::vector<Json*> out;
   const auto meshes = document.find("meshes");
@@ -417,7 +417,7 @@ bool LinkedFileReader::read(const std::string& path, std::vector<unsigned char>&
   const std::filesystem::path named = std::filesystem::path(folder_) / name_of(path);
   std::uintmax_t size = std::filesystem::file_size(named, error);
   if (error || size > left_) return false;
-  // The parser wants a buffer's bytes alone.
+  // The parser accepts only the bytes of the buffer, but the file may be longer.
   const auto buffer = preflight_.buffer_files.find(name_of(path));
   if (buffer != preflight_.buffer_files.end()) size = std::min<std::uintmax_t>(size, buffer->second);
   std::ifstream file(named, std::ios::binary);

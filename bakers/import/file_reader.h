@@ -30,8 +30,8 @@ struct GltfPreflight {
   std::vector<std::size_t>
       matrix_beside_trs;  // nodes with both a matrix and TRS; the parser drops one of the two
   // The JSON to pass to the parser. If empty, pass the JSON of the file. A replacement is necessary because
-  // the parser decodes URIs in its own way. It also needs bytes for buffers without a URI, for example
-  // buffers that will hold decompressed views, and for indices.
+  // the parser decodes URIs in its own way. It also refuses indices without bytes, and buffers without bytes,
+  // such as the buffers that will hold decompressed views.
   std::string replacement;
   std::map<std::string, std::string> names;  // maps each URI in `replacement` to the name of the file
   std::set<std::string> rooms;               // URIs of the buffers without bytes

@@ -36,7 +36,7 @@ Vector vector_of(Vec3 v) {
   return {double(v.x), double(v.y), double(v.z)};
 }
 
-// Returns the corners of triangles. Works for both ways in which positions are stored.
+// Returns the normal of a triangle. Its length is twice the area. corner(v) returns the position of vertex v.
 template <class Corner>
 Vector face_of(const Triangle& t, Corner corner) {
   return cross(minus(corner(t[1]), corner(t[0])), minus(corner(t[2]), corner(t[0])));
@@ -56,7 +56,7 @@ struct Enclosed {
     volume += dot(face, minus(corner(t[0]), origin));
     area += length(face);
   }
-  // Far above rounding, and below the volume of a sheet that is 1,000 times as wide as thick.
+  // The limit is above rounding errors, and below the volume of a sheet 1,000 times as wide as thick.
   bool is_inside_out() const { return volume < -1e-4 * area * std::sqrt(area); }
   bool is_outside_out() const { return volume > 1e-4 * area * std::sqrt(area); }
 };
@@ -141,7 +141,7 @@ std::vector<std::uint32_t> places_of(std::span<const Vec3> position) {
 struct EdgeUse {
   std::uint32_t other = 0;  // the larger place
   std::uint32_t triangle = 0;
-  bool rises = false;  // from the smaller place to the larger
+  bool rises = false;  // true if the triangle's edge runs from the smaller place to the larger one
 };
 
 // The uses of all edges. The edges whose smaller place is p are at first[p] to first[p + 1], sorted by their
@@ -192,7 +192,7 @@ bool is_plain(std::span<const EdgeUse> uses) {
   return uses.size() == 2 && uses[0].rises != uses[1].rises;
 }
 
-// Triangles joined into parts over edges that two of them use, one in each direction.
+// Joins triangles into parts. Two triangles are joined if only they use an edge, one in each direction.
 class Parts {
  public:
   Parts(std::size_t triangles, const Edges& edges) : parent_(triangles), is_open_(triangles, false) {
@@ -203,8 +203,8 @@ class Parts {
     std::map<std::uint32_t, int> balance;
     for_each_edge(edges, [&](std::span<const EdgeUse> uses) {
       if (is_plain(uses)) return;
-      // An edge where surfaces meet is inside of a part that uses it as often in one direction as in the
-      // other.
+      // Surfaces may meet at an edge. If a part uses the edge as often in one direction as in the other, the
+      // part is closed there.
       balance.clear();
       for (const EdgeUse& use : uses) balance[find(use.triangle)] += use.rises ? 1 : -1;
       for (const auto& [part, sum] : balance)

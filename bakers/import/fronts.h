@@ -19,7 +19,7 @@ namespace nook::bake {
 // The vertices and triangles of one primitive as stored in the file, in mesh space.
 struct PrimitiveSurface {
   std::span<const float> position;  // three floats per vertex
-  std::span<const float> normal;    // the same; empty: the primitive has none
+  std::span<const float> normal;    // three floats per vertex; empty: the primitive has no normals
   std::span<const std::array<std::uint32_t, 3>> triangle;
 };
 
@@ -34,11 +34,11 @@ std::vector<float> read_normals(const tinygltf::Model& model, const tinygltf::Pr
 // faces all have the normals of one side.
 std::optional<bool> faces_against_normals(const PrimitiveSurface& surface);
 
-// Returns true if the corners of each triangle must be reversed. After space_from_mesh, the corners must be
-// counter-clockwise as seen from the front. The normals decide. Without normals, the sign of the determinant
-// of the node's global transform decides (glTF 2.0, section 3.7.4). If a skin mirrors and its node does not,
-// or the reverse, the side that the primitive encloses decides. Exporters mirror positions and normals, but
-// not the order. Linear in the primitive.
+// Returns true if the corners of each triangle must be reversed, so that they are counter-clockwise as seen
+// from the front after space_from_mesh. The normals decide. Without normals, the sign of the determinant of
+// the node's global transform decides (glTF 2.0, section 3.7.4). If only one of a skin and its node mirrors,
+// the sign of the enclosed volume decides. The reason is that exporters mirror positions and normals, but do
+// not change the order of the corners. The time is linear in the primitive.
 bool turns_round(const PrimitiveSurface& surface, const Affine& space_from_mesh, bool node_mirrors);
 
 // Closed parts of a mesh (connected triangles without a border) whose triangles face inwards. The wall of a

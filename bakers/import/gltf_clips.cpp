@@ -66,7 +66,7 @@ void add_warnings(const KeyRepairs& repairs, std::vector<std::string>& warnings)
        " animation channels move the same value as another channel of their clip; the last one is used");
 }
 
-// `left` is the rest of max_key_floats. The function subtracts the floats of this channel.
+// `left` is the number of floats that max_key_floats still allows. Subtracts the floats of this channel.
 Channel read_channel(const tinygltf::Model& model, const tinygltf::Animation& animation,
                      const tinygltf::AnimationChannel& source, ChannelPath path, const std::string& what,
                      std::size_t& left) {

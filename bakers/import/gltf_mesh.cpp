@@ -115,8 +115,9 @@ Influences read_influences(const tinygltf::Model& model, const tinygltf::Primiti
   return out;
 }
 
-// Returns the bone of JOINTS_0.x for a vertex without weights. Exporters write no weights if painting missed
-// a vertex, and JOINTS_0.x then names the joint that it would follow, or the root.
+// Returns the bone of JOINTS_0.x for a vertex without weights. If the artist did not paint a vertex,
+// exporters write no weights for it. JOINTS_0.x then names the joint that the vertex would follow, or the
+// root.
 std::uint16_t first_bone(const Influences& influences, const MeshBinding& binding, std::size_t vertex,
                          const std::string& what) {
   const std::uint32_t joint = influences.joint[0].value[4 * vertex];
@@ -168,7 +169,7 @@ void append_skin_weights(const Influences& influences, const MeshBinding& bindin
       ++repairs.without_weights;
       of_vertex.push_back({first_bone(influences, binding, v, what), 1.0f});
     }
-    // Exporters round weights to bytes or shorts, which changes the sum by at most 4 x half a step of 1/255.
+    // Exporters round weights to bytes or shorts. For four weights, this changes the sum by at most 2/255.
     if (positive > 0 && std::abs(sum - 1) > 0.01) {
       ++repairs.sums_not_one;
       if (std::abs(sum - 1) > std::abs(repairs.worst_sum - 1)) repairs.worst_sum = sum;

@@ -12,7 +12,8 @@
 namespace nook::bake {
 namespace {
 
-// Limits the bind poses of a node, because a skin compares its joints with each of their bind poses so far.
+// Limits the bind poses of a node, because each joint of a skin is compared with all bind poses of its node
+// so far.
 constexpr std::size_t max_binds_of_node = 1024;
 
 struct Builder {
@@ -23,8 +24,7 @@ struct Builder {
   std::vector<std::optional<Affine>> bind_rest;
   // The results of implied_bind. Empty until all skins were added.
   std::vector<Affine> implied;
-  std::vector<std::int32_t> anchor;        // filled with implied: the nearest node upwards that has a bone or
-                                           // moves, -1: none
+  std::vector<std::int32_t> anchor;        // this node or its nearest ancestor with a bone or motion, or -1
   std::vector<std::int32_t> bone_of_node;  // the first bone of a node, -1: none
   std::vector<BoneBinding> bindings;
   std::vector<Affine> rest_from_node;  // per binding
@@ -123,8 +123,9 @@ std::uint32_t top_depth(const Builder& b, const Skin& skin) {
   return top;
 }
 
-// Returns the S of a skin. Skins of one skeleton must agree about rest space. So if an earlier skin has bound
-// one of the joints, that joint determines S. Otherwise the top-most joint does.
+// Returns the transform of a skin's meshes to rest space. Skins of one skeleton must agree about rest space.
+// So if an earlier skin has bound one of the joints, that joint decides. Otherwise the top-most joint
+// decides.
 Affine rest_from_mesh(const Builder& b, const Skin& skin) {
   std::size_t reference = 0;
   bool is_shared = false;
@@ -166,7 +167,7 @@ void add_rigid_part(Builder& b, std::uint32_t mesh_node, MeshBinding& out) {
   out.bone = {static_cast<std::uint16_t>(b.bone_of_node[node])};
 }
 
-// Returns for each bone the first bone of its nearest ancestor that has one; -1 for none.
+// Returns, for each bone, the first bone of its nearest ancestor that has a bone, or -1.
 std::vector<std::int32_t> parent_bones(const Builder& b) {
   std::vector<std::int32_t> above(b.nodes.size(), -1);
   for (const std::uint32_t i : b.nodes.order) {

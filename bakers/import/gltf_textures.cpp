@@ -36,7 +36,7 @@ void read_transform(const tinygltf::Value& extension, TextureUse& use, const std
       throw Failure(NOOK_ERROR_BAD_FILE, "%s has a KHR_texture_transform that is not finite", what.c_str());
 }
 
-// glTF 2.0, section 5.11: an image is in a buffer view or in a URI, which is read by now.
+// glTF 2.0, section 5.11: an image is in a buffer view or in a URI. The parser has already read the URI.
 std::span<const unsigned char> bytes_of(const tinygltf::Model& model, const tinygltf::Image& image) {
   if (image.bufferView < 0) return image.image;
   if (std::size_t(image.bufferView) >= model.bufferViews.size()) return {};

@@ -118,8 +118,8 @@ std::vector<int> levels_by_extension(const tinygltf::Model& model) {
   return level;
 }
 
-// The level of each node with a mesh: by the extension, by the names of the node and of its mesh, else by the
-// nearest ancestor's name. 0 is the finest.
+// Returns the level of each node with a mesh; 0 is the finest. It is the larger of two levels: from MSFT_lod,
+// and from names (of the node and its mesh, else of the nearest ancestor).
 std::vector<int> levels(const tinygltf::Model& model, const NodeTree& nodes) {
   const std::vector<int> named_by_extension = levels_by_extension(model);
   std::vector<int> level(nodes.size(), 0), inherited(nodes.size(), 0), extended(nodes.size(), 0);
@@ -245,7 +245,7 @@ bool is_transparent(const tinygltf::Model& model, int material) {
   return m.alphaMode == "BLEND" && colour.size() == 4 && colour[3] == 0;
 }
 
-// Hulls for physics and clicks are often hidden in this way.
+// Collision hulls and click targets are often hidden in this way.
 void note_transparent(const tinygltf::Model& model, const std::vector<NodeState>& state,
                       std::vector<std::string>& notes) {
   std::vector<std::string> names;
@@ -346,7 +346,7 @@ void check_instances(const tinygltf::Model& model, const std::vector<NodeState>&
   }
 }
 
-// The states of nodes, with what decided about levels of detail.
+// The state and the level of detail of each node.
 struct States {
   std::vector<NodeState> state;
   std::vector<int> level;

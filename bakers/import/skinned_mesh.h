@@ -39,7 +39,7 @@ struct Primitive {
 struct SkinnedMesh {
   std::vector<Bone> bones;
   std::vector<Vec3> position;                          // welded vertices, rest space, metres
-  std::vector<SkinWeights> weights;                    // the same
+  std::vector<SkinWeights> weights;                    // one entry per welded vertex
   std::vector<std::array<std::uint32_t, 3>> triangle;  // indices of welded vertices
   std::vector<std::uint32_t> file_to_welded;
   std::vector<Primitive> primitives;

@@ -19,7 +19,7 @@
 namespace nook::bake {
 namespace {
 
-// The arrays of the primitives so far, and what must still be made.
+// The arrays of the primitives that were read so far, and what must still be generated for them.
 struct Building {
   SurfaceMesh mesh;
   std::vector<bool> makes_normal, makes_tangent;  // per vertex
@@ -56,8 +56,8 @@ Vec3 turn(const Affine& a, Vec3 v) {
   return {row(0), row(4), row(8)};
 }
 
-// Turns a normal by the cofactors of the linear part, up to their scale. They are the cross products of its
-// columns and keep the side of a mirrored surface.
+// Turns a normal by the cofactor matrix of the linear part, and normalises it. Mirrored surfaces keep their
+// front side.
 Vec3 turn_normal(const Affine& a, Vec3 n) {
   const auto& m = a.m;
   const auto cofactor = [&](std::size_t r, std::size_t c) {
@@ -119,7 +119,7 @@ void append_primitive(const tinygltf::Model& model, const ShownPrimitive& shown,
     mesh.normal.push_back(has_normal && std::abs(length(n) - 1) > 1e-3f ? normalised(n) : n);
     Tangent t;
     if (!tangent.empty()) {
-      // Normal maps of glTF have y up, against growing v. So their w has the other sign.
+      // In glTF normal maps, y points towards decreasing v, so our handedness has the opposite sign of w.
       t.direction = {tangent[4 * v], tangent[4 * v + 1], tangent[4 * v + 2]};
       if (!stays) t.direction = turn(world_from_mesh, t.direction);
       t.handedness = (tangent[4 * v + 3] < 0) == is_mirrored ? -1.0f : 1.0f;
@@ -228,8 +228,8 @@ double corner_angle(Vec3 normal, Vec3 to_next, Vec3 to_previous) {
   return std::acos(std::clamp(double(dot(a, b)), -1.0, 1.0));
 }
 
-// along_u points to where u grows in a triangle's plane. sign belongs to its area in texture coordinates.
-// Both are 0 if one of the areas is not above 0.
+// along_u is the direction in a triangle's plane in which u grows. sign is the sign of the triangle's
+// area in texture coordinates. Both are 0 if the triangle has no area there or in space.
 struct Slope {
   Vec3 along_u;
   int sign = 0;

@@ -57,7 +57,7 @@ Direction face_normal(std::span<const Vec3> position, const std::array<std::uint
 struct Corner {
   std::uint32_t vertex = 0;
   std::uint32_t next = 0, previous = 0;  // places
-  Direction normal{};                    // twice the area long
+  Direction normal{};                    // its length is twice the triangle's area
   Direction direction{};                 // unit length
 };
 
@@ -120,8 +120,8 @@ void divide(std::span<Sheet> sheets) {
           sheet.side = sides;
 }
 
-// The cosine of the smallest angle by which a surface bends if it continues across both edges of a corner. It
-// includes a margin for rounding.
+// For each edge of a corner, this has the largest cosine of the angle between the faces on both sides of the
+// edge, minus a margin for rounding.
 struct Neighbour {
   double over_next = -1, over_previous = -1;
 };

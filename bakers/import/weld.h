@@ -39,15 +39,15 @@ struct MeshArrays {
   std::span<const std::uint32_t> index;  // three per triangle
   std::size_t influences = 0;            // joints and weights per vertex
   std::span<const std::uint16_t> joint;  // influences * vertices
-  std::span<const float> weight;         // the same
+  std::span<const float> weight;         // influences * vertices, in the order of `joint`
   std::vector<Primitive> primitives;
 };
 FileMesh to_file_mesh(const MeshArrays& arrays, nook_result code);
 
 // Welds vertices with exactly equal rest positions (-0 equals 0) and equal weights, unless their faces have
 // opposite normals. Drops degenerate triangles with a warning, and validates the mesh. Fails with `code`. The
-// time is linear in vertices and triangles. Places are hashed, and the work at one place is at most the
-// square of its corners; 256 of them are looked at.
+// time is linear in vertices and triangles, plus the square of the corners at each place. Places with more
+// than 256 corners are not examined.
 SkinnedMesh weld(FileMesh mesh, std::vector<std::string>& warnings, nook_result code);
 
 }  // namespace nook::bake

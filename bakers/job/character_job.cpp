@@ -448,7 +448,7 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
                                     });
   fit_to_use(baked.model, character, recipe, calibration, progress);
   WorldCasterReport caster_report;
-  // An object with one bone does not deform, it only moves. Its casters are fitted in several rotations of
+  // An object with one bone only moves and does not deform. Its casters are fitted in several rotations of
   // the object in front of walls and lights.
   const std::vector<Pose> caster_poses =
       character.mesh.bones.size() == 1 ? turned_poses(caster_settings(recipe).poses, 0) : std::move(poses);

@@ -14,7 +14,7 @@
 
 namespace nook::bake {
 
-// Returns everything except the program itself that determines the bits of the network, as one line of JSON.
+// Returns one line of JSON with everything that determines the network's bits, except the program itself.
 std::string network_recipe(const nnao::DatasetSettings& data, const nnao::TrainingSettings& training);
 
 // Returns the error of the network on points that were not used for training: one row for a constant

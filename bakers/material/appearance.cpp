@@ -53,7 +53,7 @@ Matrix sums_of(const std::vector<float>& images, std::size_t rows, const RawMate
   return out;
 }
 
-// Returns R with R^T R = U^T U for the light basis U. R is square, and R a has the same length as U a.
+// Returns a square R with R^T R = U^T U for the light basis U, so |R a| = |U a| for every vector a.
 Matrix lengths_of(const nook::material::Material& material) {
   const Eigen::Index rank = material.btf.shape.rank_light;
   const Eigen::Map<const Matrix> basis(material.light_basis.data(),

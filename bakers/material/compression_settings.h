@@ -39,8 +39,8 @@ struct CompressionSettings {
   std::uint32_t cluster_rank_view = 4;
   std::uint32_t clusters = 0;  // C; 0: rank_view / cluster_rank_view
   std::uint32_t mixture = 3;   // K of K-CTA
-  // Number of further fits of the VOTF. Their targets only depend on which side of the threshold a value
-  // lies; see visibility_values.h.
+  // Number of further fits of the VOTF. Their targets depend only on whether a value is above or below the
+  // threshold; see visibility_values.h.
   std::uint32_t votf_refits = 2;
   Seeding seeding = Seeding::directions;
   nook::material::VisibilityForm visibility = nook::material::VisibilityForm::distance;

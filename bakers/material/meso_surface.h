@@ -12,9 +12,9 @@
 
 namespace nook::bake::material {
 
-// A closed surface. It may also close only through the repetition of the tile. Normals point out of the
-// solid. Lengths are in tiles, so the pattern repeats after 1 along x and y. Triangles may reach beyond the
-// tile. Together with their copies, they cover the plane once.
+// A surface that is closed, at least together with the copies of the tile. Normals point out of the solid.
+// Lengths are in tiles, so the pattern repeats after 1 along x and y. Triangles may reach beyond the tile.
+// Together with their copies, they cover the plane once.
 struct MesoSurface {
   std::vector<Vec3> position;
   std::vector<Vec3> normal;  // unit, for shading

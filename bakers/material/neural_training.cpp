@@ -39,7 +39,7 @@ struct Trained {
 // values of one position are adjacent.
 struct Targets {
   std::vector<float> value;
-  float scale = 1;  // the radiance of a value of 1
+  float scale = 1;  // the radiance that the value 1 stands for
 };
 
 Targets targets_of(const RawMaterial& raw) {
@@ -229,7 +229,7 @@ void part_gradient(const Trainer& t, const Targets& targets, const NeuralNumbers
 
 void train(Trainer& t, const Targets& targets, const StageProgress& progress) {
   const NeuralSettings& s = t.settings;
-  // The offset features have this multiple of the learning rate of the other features.
+  // The offset features learn at the rate of the other features times this factor.
   constexpr float offset_share = 0.3f;
   for (std::uint32_t step = 0; step < s.steps; ++step) {
     const NeuralNumbers numbers = 2 * step >= s.steps ? t.rounded() : t.numbers();

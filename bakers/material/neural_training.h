@@ -10,7 +10,7 @@ struct NeuralSettings {
   NeuralShape shape;  // width, height and widest_view_z are set from the raw material
   std::uint32_t steps = 8000;
   std::uint32_t offset_steps = 3000;           // steps that train only the offset, before all other training
-  std::uint32_t positions = 1024, lights = 8;  // per step: number of texels in views, and of lights for each
+  std::uint32_t positions = 1024, lights = 8;  // per step: texels in views, and lights for each of them
   float rate = 3e-3f, feature_rate = 1e-2f;    // initial rates of Adam for weights and features
   std::uint64_t seed = 1;
 };

@@ -19,7 +19,7 @@ inline constexpr float dielectric_reflectance = 0.04f;  // at normal incidence
 // directions.
 inline constexpr float least_roughness = 0.1f;
 
-// Returns the GGX width for a perceptual roughness from 0 to 1, which is the square of the roughness.
+// Returns the GGX width for a perceptual roughness from 0 to 1. The width is the square of the roughness.
 // Roughness below least_roughness is raised to least_roughness.
 float ggx_width(float roughness);
 

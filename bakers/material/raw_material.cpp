@@ -194,7 +194,7 @@ void pull(const std::vector<Size>& sizes, Levels& levels) {
   }
 }
 
-// The texel at / 2 of the coarser level is nearest to the texel `at`. Returns the second nearest one.
+// Texel `at / 2` of the coarser level is the nearest to the texel `at`. Returns the second nearest one.
 std::size_t beside(std::size_t at, std::size_t size) {
   return (at / 2 + (at % 2 ? 1 : size - 1)) % size;
 }

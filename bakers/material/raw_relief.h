@@ -20,8 +20,8 @@ inline constexpr std::uint32_t default_relief_steps = 8;
 nook::material::Relief relief_of_heights(const RawMaterial& raw, const std::vector<float>& heights,
                                          std::uint32_t steps = default_relief_steps);
 
-// Throws Failure(INVALID_ARGUMENT) if the raw material has no heights, has another number of heights than of
-// texels, or has heights that exceed the limits of a file.
+// Throws Failure(INVALID_ARGUMENT) if the raw material has no heights, if their number differs from the
+// number of texels, or if they exceed the limits of a file.
 void check_heights(const RawMaterial& raw);
 
 // Estimates the heights at which the views agree. Candidates are these heights smoothed over several lengths,

@@ -37,9 +37,9 @@ struct Verdict {
 
 const char* grade_name(Grade grade);
 
-// Judges the compression of a raw material with these settings. Takes a square of at most 24 x 24 texels from
-// its middle, without the VOTF. Materials with fewer than ten views or lights are not judged. Neural
-// materials are not judged either, because their training takes too long to repeat it. The result has the
+// Judges the compression of a raw material with these settings. Uses a square of at most 24 x 24 texels from
+// the middle of the material, without the VOTF. Materials with fewer than ten views or lights are not judged.
+// Neural materials are not judged either, because a second training would take too long. The result has the
 // same bits on any number of threads. `progress` is the same as for compress().
 Verdict judge(const RawMaterial& raw, const CompressionSettings& settings,
               const StageProgress& progress = {});

@@ -26,15 +26,15 @@ float saturated_distance(float distance_texels, std::uint32_t longer_side);
 // equation (26) expects. For a mask without a boundary, all values are +1 or all are -1.
 std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t width, std::uint32_t height);
 
-// Makes targets for the VOTF's fit that depend only on which side of the threshold a value lies.
+// Makes targets for the VOTF's fit that depend only on whether a value is above or below the threshold.
 
-// The decoder only uses on which side of the threshold a value lies. Plain least squares wastes ranks on the
-// magnitudes of values. Returns the targets for the next fit. If a decoded value is on the correct side by at
-// least the margin, it is kept as the target, up to 1.5 times the distance of `values` to the threshold. For
-// every other value, the target exceeds the margin by as much as the decoded value fell short of the margin.
-// A fit to these targets has fewer errors (the squared hinge of N. Srebro, J. Rennie, T. Jaakkola:
-// Maximum-margin matrix factorization, 2004). The margin is 0.8 of the smallest distance to the threshold in
-// `values`.
+// The decoder only tests whether a value is above the threshold. Plain least squares wastes ranks on the
+// magnitudes of values. Returns the targets for the next fit. A decoded value that is
+// beyond the margin on the correct side is kept as the target, up to 1.5 times the distance of `values` to
+// the threshold. For every other value, the target exceeds the margin by as much as the decoded value fell
+// short of it. A fit to these targets has fewer errors (the squared hinge of N. Srebro, J. Rennie, T.
+// Jaakkola: Maximum-margin matrix factorization, 2004). The margin is 0.8 of the smallest distance to the
+// threshold in `values`.
 std::vector<float> margin_targets(std::span<const float> values, std::span<const float> decoded,
                                   float threshold);
 

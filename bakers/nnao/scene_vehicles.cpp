@@ -56,7 +56,7 @@ void add_car_wheel(TriangleSoup& soup, const Mat3x4& frame, float radius, Random
 void add_car(TriangleSoup& soup, const Mat3x4& frame, Random& random) {
   const Coach c = any_coach(random);
   const float half = 0.5f * c.length, axle = 0.58f * half, arch = c.wheel + 0.05f;
-  // Adds the body as cross-sections along z. Its sides are drawn in above the belt and rounded at the ends.
+  // Adds the body as cross-sections along z. Its sides lean inwards above the belt, and its ends are round.
   const auto deck = [&](float t) {  // the height of the belt
     const float end = std::abs(2 * t - 1);
     return (t > 0.5f ? c.nose : c.tail) + (c.belt - (t > 0.5f ? c.nose : c.tail)) * (1 - end * end * end);

@@ -98,7 +98,7 @@ bake::CalibrationPoses recorded_poses(const Options& options, const bake::Skinne
   });
 }
 
-// Leaves out of the table the keys that are only useful in the report file.
+// Makes the output. The table does not contain the keys that are only useful in the report file.
 BakeOutput output_of(bake::BakedFile file) {
   nlohmann::ordered_json row = nlohmann::ordered_json::parse(file.report);
   const std::string summary = platform::printable(row["summary"].get<std::string>());
@@ -186,10 +186,10 @@ void add_form_options(Command command, Options& o) {
              "--kernel paper, --fit paper and --gamma 2");
   add_choice(command, "--kernel", o.kernel, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
              "for comparisons: how the shadow of a sphere is computed. paper uses the kernel of Le et al. "
-             "2019 with Nook's fit; default nook");
+             "2019 with Nook's fit. Default: nook");
   add_choice(command, "--fit", o.fit, {{"nook", NOOK_FORM_DEFAULT}, {"paper", NOOK_FORM_PAPER}},
              "for comparisons: how the model is fitted. paper uses the fit of Le et al. 2019 (block "
-             "coordinate descent with L-BFGS) with Nook's kernel; default nook");
+             "coordinate descent with L-BFGS) with Nook's kernel. Default: nook");
   command
       .add_option_function(
           "--gamma", [&o](const std::string& text) { o.gamma = gamma_of(text); },

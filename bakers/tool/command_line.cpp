@@ -27,8 +27,8 @@ void leave_range_of_type(CLI::Option& option) {
   }
 }
 
-// Refuses what a conversion to an unsigned type would change without a word: it takes -1 as the largest
-// number, and numbers that are too large as well.
+// Rejects numbers that a conversion to an unsigned type would silently change. For example, -1 would become
+// the largest number.
 std::string fault_of_whole_number(const std::string& text, std::uint64_t low, std::uint64_t high) {
   std::uint64_t number = 0;
   const char* end = text.data() + text.size();
@@ -90,7 +90,7 @@ Option Option::required() const {
   return Option(option_->required());
 }
 Option Option::check(const Check& check) const {
-  // The option's own range takes the place of the range of its type, so that messages name it.
+  // Messages must name the option's own range, so the check for the range of its type is turned off.
   if (check.validator().get_name() == whole_number_check) leave_range_of_type(*option_);
   return Option(option_->check(check.validator()));
 }

@@ -141,7 +141,7 @@ void main() {
   vec2 normal = length(step_px) > 1e-3 ? normalize(vec2(-step_px.y, step_px.x)) : vec2(0.0, 1.0);
   bool first = (gl_VertexID & 1) == 0;
   vec4 clip = first ? from : to;
-  // One pixel more than the line is wide, in which it fades.
+  // The quad is one pixel wider than the line on each side. The line fades out there.
   half_width_px = 0.5 * (first ? from_width.w : to_width.w) + 1.0;
   across = (gl_VertexID >> 1) == 0 ? -half_width_px : half_width_px;
   clip.xy += 2.0 * across * normal / viewport_px * clip.w;

@@ -26,14 +26,13 @@ struct Size {
   const char* name;
   std::uint32_t light_modes, view_vec4s, clusters, terms, texels;
   std::uint32_t votf_view_vec4s, votf_clusters, votf_terms;
-  // The decoding loop, if the compiler does not unroll it. The second value is used for vega10 if it differs
-  // there.
+  // The decoding loop, if the compiler does not unroll it. loop_on_vega10 is set if vega10 has another loop.
   std::optional<Loop> loop, loop_on_vega10;
   bool has_relief = false;
   // Number of light modes in compressed texture blocks; if not 0, the VOTF is compressed too.
   std::uint32_t packed_modes = 0;
 };
-// The sizes of fiber and roughhole at the paper's ranks, as in docs/lab/material_decoding.md, and of weave.
+// fiber and roughhole have the paper's ranks (docs/lab/material_decoding.md).
 const Size sizes[] = {
     {"fiber, N-SVD", 16, 20, 1, 1, 96, 20, 1, 1, {}, Loop{"view vectors", 20, {}}},
     {"fiber, K-CTA, K = 3", 16, 1, 20, 3, 96, 1, 20, 3, {}, {}},

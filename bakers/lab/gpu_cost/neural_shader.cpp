@@ -38,7 +38,7 @@ float nook_neural_height(vec2 uv, vec2 dx, vec2 dy, vec3 view) {
   return height;
 }
 
-// The place on the map of views: the disc of equal solid angles on a square.
+// Returns the place of a direction on the square map of views, where equal areas are equal solid angles.
 vec2 nook_neural_place(vec3 view) {
   float radius = min(sqrt(max(1.0 - view.z, 0.0) / (1.0 - nook_neural_widest_view_z)), 1.0);
   vec2 size = abs(view.xy);

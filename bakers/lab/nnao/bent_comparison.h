@@ -30,7 +30,7 @@ inline constexpr float bent_below = 0.7f;
 //   method, taps, denoiser, scene
 //   angle           degrees, the median where the reference's AO is below bent_below
 //   angle_mean      degrees
-//   specular_mse    for methods with AO, like the rest
+//   specular_mse    this and the columns below: only for methods with AO
 //   lagarde_mse     by S. Lagarde's form of the same AO
 //   specular_ratio  and both errors for each roughness
 // All views must have the same size and must contain bent references. The radius of `request` is replaced by

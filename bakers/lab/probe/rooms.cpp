@@ -161,7 +161,7 @@ void build_house(Builder& b) {
   b.lamp(6.0f, 4.28f, 0.5f, {2, 2.4f, 3});
 }
 
-// Takes what the builder made. `light` is the map around the building.
+// Fills `rooms` with the finished triangles. `light` is the map around the building.
 void finish(Rooms& rooms, const Building& building, LitTriangles triangles, bake::Environment light) {
   rooms.soup = triangles.soup;
   rooms.origin_offset = bake::ray_origin_offset(triangles.soup.position);

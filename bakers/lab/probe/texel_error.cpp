@@ -26,14 +26,14 @@ Vec3 from_probulator(Vec3 v) {
   return {-v.z, v.y, v.x};
 }
 
-// The digits of `i` in reverse order, behind the point.
+// Returns the digits of `i` in reverse order, after the radix point.
 double radical_inverse(std::uint32_t i, std::uint32_t base) {
   double sum = 0;
   for (double digit = 1.0 / base; i > 0; i /= base, digit /= base) sum += digit * (i % base);
   return sum;
 }
 
-// The texel that has this direction's normal nearest.
+// Returns the texel whose normal is nearest to the direction.
 std::size_t texel_at(const bake::Environment& map, Vec3 d) {
   const double u = std::atan2(double(d.z), double(d.x)) / (2 * pi) + 0.5,
                v = std::acos(std::clamp(double(d.y), -1.0, 1.0)) / pi;
@@ -65,7 +65,7 @@ std::vector<Vec3> texel_normals(const bake::Environment& map) {
   return normals;
 }
 
-// The light of each texel comes from the direction of its normal, as in Probulator.
+// As in Probulator, the light of each texel comes from the direction of the texel's normal.
 std::vector<Vec3> irradiance_of(const bake::Environment& map, const std::vector<Vec3>& normals) {
   std::vector<Vec3> light(normals.size()), found(normals.size());
   for (std::size_t i = 0; i < light.size(); ++i)

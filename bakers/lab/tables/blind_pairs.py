@@ -8,8 +8,8 @@ which picture of each pair was chosen. Each pair has Nook's default preset and a
     blind_pairs.py count PAIRS ANSWERS...     # a file for each person, with lines such as `07 A`
 
 A rule chooses the views: the first camera of every scene of the list, then second cameras, until there are 20. The
-part is the 480 x 400 pixels with the largest spread of traced AO. Each picture shows the lit scene times AO, enlarged
-twice. People see no names, no reference and no key. Debian: python3-pil, python3-numpy.
+part is the 480 x 400 pixels with the largest spread of traced AO. Each picture shows the lit scene times AO, at
+twice its size. People see no names, no reference and no key. Debian: python3-pil, python3-numpy.
 """
 import argparse
 import json
@@ -29,7 +29,7 @@ FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
 
 
 def chosen_views():
-    """Names of pictures: the first camera of every scene, then the second one of each, and so on."""
+    """Returns the names of pictures: the first camera of every scene, then the second one of each, and so on."""
     scenes = [scene for source in json.loads(VIEWS.read_text())["sources"] for scene in source["scenes"]]
     names = []
     for camera in range(max(len(scene["cameras"]) for scene in scenes)):
@@ -93,7 +93,7 @@ def read_answers(path, key):
     for line in filter(None, map(str.strip, path.read_text().splitlines())):
         number, _, side = line.partition(" ")
         if number not in key or side not in ("A", "B"):
-            raise SystemExit(f"{path}: '{line}' is no answer; each line is the number of a pair and A or B, such as 07 A")
+            raise SystemExit(f"{path}: '{line}' is not an answer; each line is the number of a pair and A or B, such as 07 A")
         answers[number] = side
     if len(answers) != len(key):
         raise SystemExit(f"{path} answers {len(answers)} of {len(key)} pairs; need all")
@@ -101,7 +101,7 @@ def read_answers(path, key):
 
 
 def bounds(chosen, count):
-    """Wilson's bounds of a share, 95 %."""
+    """Returns Wilson's 95 % bounds of a share."""
     z, share = 1.96, chosen / count
     middle, spread = share + z * z / (2 * count), z * math.sqrt(share * (1 - share) / count + z * z / (4 * count * count))
     return (middle - spread) / (1 + z * z / count), (middle + spread) / (1 + z * z / count)

@@ -67,7 +67,7 @@ def summary(results):
 
 
 def surface_columns(r):
-    """Returns the errors between vertices of the model, of the static bake and of exact AO, and the model's over the static bake's."""
+    """Returns the errors between vertices: of the model, of the static bake, of exact AO, and the ratio of the first two."""
     return [number(r["mse_surface"]), number(r["mse_surface_static"]), number(r["mse_surface_exact_vertices"]),
             f"{r['ratio_to_static_surface']:.3f}"]
 
@@ -112,12 +112,12 @@ def baselines(results):
 
 
 def nook_bytes(r):
-    """Bytes of the regression and the file order. The baselines would need bind data and rest positions, too."""
+    """Returns the model's bytes without bind data and rest positions, which the baselines would need too."""
     return r["model_bytes"] - r["bind_bytes"] - r["rest_bytes"]
 
 
 def figures(results):
-    """The figures of docs/data/character.json, which docs/figures.py binds to the pages."""
+    """Returns the figures of docs/data/character.json, which docs/figures.py binds to the pages."""
     found = {}
     for body, split, _, r in results:
         name = f"{body.rsplit('_', 1)[0]}, {SPLITS[split]}"

@@ -79,7 +79,7 @@ def check():
     text = DOCUMENT.read_text()
     for name, expected in tables(json.loads(COUNTS.read_text())).items():
         if f"<!-- {name}, by bakers/lab/tables/{SCRIPT} -->\n{expected}" not in text:
-            sys.exit(f"{DOCUMENT.name}: the table '{name}' is not that of {COUNTS.name}; run bakers/lab/tables/{SCRIPT} --write")
+            sys.exit(f"{DOCUMENT.name}: the table '{name}' differs from {COUNTS.name}; run bakers/lab/tables/{SCRIPT} --write")
 
 
 def main():

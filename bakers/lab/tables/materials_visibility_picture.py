@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """materials_visibility_picture.py RAW.png BINARY.png DISTANCES.png: writes docs/materials_visibility.png from
-two pictures of samples/material with 960 x 540 pixels each. The vases of both pictures are side by side,
-enlarged twice. Below each vase is one of its holes, enlarged six times.
+two pictures of samples/material with 960 x 540 pixels each. The vases of both pictures are side by side, at
+twice their size. Below each vase is one of its holes, at six times its size.
 
 docs/lab/materials.md has the commands that make the pictures.
 """

@@ -36,7 +36,7 @@ def read(path):
         if kind == b"IHDR":
             width, _, bits, colour, _, _, interlaced = struct.unpack(">IIBBBBB", body)
             if (bits, colour, interlaced) != (8, 2, 0):
-                sys.exit(f"{path} is no plain RGB picture")
+                sys.exit(f"{path} is not a plain RGB picture")
         elif kind == b"IDAT":
             packed += body
         at += 12 + size

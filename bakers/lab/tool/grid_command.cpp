@@ -38,7 +38,7 @@ struct Options {
   std::string rooms = "six";
 };
 
-// Eight probes for most rooms; and in the house about one probe in each 1.2 metres, as a user might set them.
+// Most of the six rooms have eight probes. The house has one about every 1.2 metres, as users might choose.
 constexpr std::array<std::uint32_t, 3> six_rooms_counts{6, 2, 5}, house_counts{8, 3, 5};
 
 // Draws three floor plans below each other: path traced, trilinear lookup, and lookup with walls. The scale

@@ -53,7 +53,7 @@ std::vector<float> traced_points(const SkinnedMesh& mesh, const Pose& pose,
   for (const SurfacePoint& point : points) {
     point_position.push_back(interpolated<Vec3>(point, position));
     const Vec3 mean = interpolated<Vec3>(point, normal);
-    // Normals that cancel out have no direction. Take a vertex's.
+    // Normals that cancel out have no direction. In this case, uses the normal of a vertex.
     point_normal.push_back(length(mean) > 0 ? normalised(mean) : normal[point.vertex[0]]);
   }
   AoSettings settings;

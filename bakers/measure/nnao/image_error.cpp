@@ -89,8 +89,8 @@ double ImageError::ssim() const {
 
 double ImageError::correlation() const {
   const double va = count_ * aa_ - a_ * a_, vb = count_ * bb_ - b_ * b_;
-  // Treats such an image as constant. The threshold is far below the variance of an image in which only one
-  // pixel in a million differs, by two grey levels.
+  // Treats an image with less variance as constant. The threshold is far below the variance of an image in
+  // which only one pixel in a million differs, by two grey levels.
   if (!(va > 1e-9 * count_) || !(vb > 1e-9 * count_)) return 0;
   return (count_ * ab_ - a_ * b_) / std::sqrt(va * vb);
 }

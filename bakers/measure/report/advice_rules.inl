@@ -1,5 +1,5 @@
-// subject, measure, bound, threshold, meaning, advice. Beyond its threshold, a change of the bake is worth an
-// artist's time. The page prints the threshold beside the measured value.
+// subject, measure, bound, threshold, meaning, advice. If a measure is beyond its threshold, it is worth an
+// artist's time to change the bake. The page prints the threshold beside the measured value.
 
 // Shares are shares of the visible error. Hands have about 5 % of a body's surface, feet 5 %, a head 10 %.
 RULE(body, "source_changed", at_least, 1, "the hash of the character file differs from its hash at the bake",

@@ -70,7 +70,7 @@ Html pictures(const SurfaceMesh& mesh, const std::vector<float>& baked, const st
     const BodyView view(mesh.triangle, mesh.position, camera, width_px, height_px);
     const std::array<Picture, 2> panels{view.draw(traced, grey), view.draw(baked, grey)};
     std::string alternative = "The shape from ";
-    alternative.append(names[std::size_t(side)]).append(": its openness ray traced, and as the file has it");
+    alternative.append(names[std::size_t(side)]).append(": its openness, ray traced and from the file");
     html += figure(side_by_side(panels), alternative,
                    Html("from ") + text(names[std::size_t(side)]) + Html(", ray traced and from the file"));
   }

@@ -119,7 +119,7 @@ VectorMeasure measure_vectors(const bake::SurfaceMesh& mesh, const Transfer& tra
   std::vector<std::vector<float>> direct_vectors(lights.size());
 
   const nook::transfer::Response response = response_of(tables, transfer.lobes);
-  // The times in the tables of the documents are for AVX2, so uses AVX2 if the processor has it.
+  // The documents list times for AVX2, so this uses AVX2 if the processor has it.
   const Isa isa = isa_available(Isa::avx2) ? Isa::avx2 : choose_isa(NOOK_ISA_AUTO);
   for (std::size_t l = 0; l < lights.size(); ++l) {
     LightVectors& vectors = measure.lights[l];

@@ -1,4 +1,4 @@
-// Ways in which a character darkens the world: Nook's casters and what engines use instead.
+// Methods that compute how a character darkens the world: Nook's casters, and the methods that engines use.
 #pragma once
 
 #include <memory>

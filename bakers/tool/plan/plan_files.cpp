@@ -128,8 +128,8 @@ std::string ninja_text(const PlanPlaces& places, const std::vector<Job>& jobs,
   std::string written =
       "# nook plan wrote this from " + places.manifest.string() +
       " and will replace it.\n"
-      "# Keys decide what runs: with generator, Ninja does not compare command lines, which "
-      "differ in threads alone.\n\n"
+      "# Keys decide what runs. With generator = 1, Ninja ignores changes of command lines, which "
+      "differ only in the number of threads.\n\n"
       "rule bake\n  command = $run\n  description = $name\n  generator = 1\n\n"
       "rule plan\n  command = " +
       ninja_value(places.plan_command) +

@@ -16,9 +16,9 @@ struct FoundAssets {
 };
 
 // A log belongs to the model with the same name in the same folder. A log from `nook plan` belongs to the
-// model that it is named after. Names that begin with a dot are left out. So are the entries of a cache,
-// whose names are keys. Follows links to files but not to folders. Throws ToolError (bad input) if `folder`
-// cannot be read.
+// model that it is named after. Ignores names that begin with a dot, and the entries of a cache, whose names
+// are keys. Follows links to files but not to folders. Throws ToolError (bad input) if `folder` cannot be
+// read.
 FoundAssets find_assets(const std::filesystem::path& folder);
 
 }  // namespace nook::tool

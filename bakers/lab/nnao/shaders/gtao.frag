@@ -1,8 +1,8 @@
 #version 330 core
 // GTAO (J. Jimenez, X. Wu, A. Pesce, A. Jarabo, Practical realtime strategies for accurate indirect
-// occlusion, 2016) integrates two horizons per slice in closed form. An occluder has less effect the closer
-// its distance is to the radius. The sum over the slices is divided by the sum that the same slices give for
-// an open hemisphere. An open plane therefore has AO 1 even with few slices.
+// occlusion, 2016) integrates two horizons per slice in closed form. The effect of an occluder fades out
+// towards the radius. The sum over the slices is divided by the sum that the same slices give for an open
+// hemisphere. An open plane therefore has AO 1 even with few slices.
 #include "bakers/lab/nnao/shaders/baseline.glsl"
 #include "bakers/measure/nnao/shaders/slice.glsl"
 

@@ -1,4 +1,4 @@
-// The list of all assets. Rows stay JSON until they are shown, a piece at a time, so that thousands are light.
+// Shows the list of all assets. Rows become HTML in pieces, so that a list of thousands loads quickly.
 (() => {
 "use strict";
 const [NAME, KIND, STATE, OVER, FIGURE, NOTES, BYTES, SECONDS, KEY, CHANGE, BEFORE, FLAGS, SOURCE, LOG] = Array(14).keys();
@@ -32,7 +32,7 @@ function duration(seconds) {
   return seconds < 7200 ? `${digits(seconds / 60)} min` : `${digits(seconds / 3600)} h`;
 }
 
-// A word of a shell's command line.
+// Quotes a word for a shell's command line, if necessary.
 const word = (text) => (/^[\w@%+=:,./-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
 
 const link = (path) => data.links + path.split("/").map(encodeURIComponent).join("/");
@@ -93,7 +93,7 @@ function showMore() {
   find("shown").textContent = matching.length === rows.length ? `${rows.length} rows` : `${matching.length} of ${rows.length} rows`;
 }
 
-// Names compare as text without a locale: a collation of 5,000 names takes a tenth of a second.
+// Compares names without a locale, because sorting 5,000 names with a locale takes a tenth of a second.
 const byText = (a, b) => (a < b ? -1 : Number(a > b));
 const changeOrder = data.changes.map((name) => ["worse", "new", "gone", "other key", "better", "same"].indexOf(name));
 const orders = {
@@ -145,7 +145,7 @@ function addStates() {
 }
 
 function addFilters() {
-  // A letter before the name tells an asset without a kind from no choice.
+  // The value of a kind has a prefix, so that assets without a kind differ from "all".
   option(find("kind"), "", "all");
   for (const [kind, count] of [...countBy(KIND)].sort()) option(find("kind"), `k${kind}`, `${kind || "unknown"} (${count})`);
   option(find("change"), "", "all");
@@ -167,11 +167,11 @@ addStates();
 addFilters();
 find("clear").addEventListener("click", clear);
 find("more").addEventListener("click", showMore);
-// A reload may keep what was typed.
+// After a reload, the browser may keep the text that the reader typed.
 clear();
 performance.mark("rows");
-// Looks at the button anew after each piece: a reader may reach its new place before the next frame, which is
-// no change for the observer.
+// Observes the button again after each piece. The button may still be visible in the next frame, and then the
+// observer would report no change.
 const observer = new IntersectionObserver((entries) => {
   if (find("more").hidden || !entries.some((entry) => entry.isIntersecting)) return;
   showMore();

@@ -1,4 +1,4 @@
-// A body that turns, drawn by WebGL 2 from quantised positions and one byte of AO a vertex.
+// Draws a body that turns, with WebGL 2. Positions are quantised, and AO has one byte per vertex.
 "use strict";
 (() => {
   const data = JSON.parse(document.getElementById("turn-data").textContent);
