@@ -144,7 +144,7 @@ class Decompressed {
         at += 4;
       }
     primitive.indices = add_accessor(std::move(accessor), std::move(bytes));
-    // Strips are decompressed as lists.
+    // The library decompresses strips as triangle lists.
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
   }
 

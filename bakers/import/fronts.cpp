@@ -124,7 +124,7 @@ struct PlaceHash {
   }
 };
 
-// Gives each distinct position an index from 0 on, and returns the index of each position.
+// Numbers the distinct positions, starting at 0. Returns the number of each position.
 std::vector<std::uint32_t> places_of(std::span<const Vec3> position) {
   std::vector<std::uint32_t> out;
   std::unordered_map<std::array<float, 3>, std::uint32_t, PlaceHash> known;
@@ -144,8 +144,8 @@ struct EdgeUse {
   bool rises = false;  // true if the triangle's edge runs from the smaller place to the larger one
 };
 
-// The uses of all edges. The edges whose smaller place is p are at first[p] to first[p + 1], sorted by their
-// larger place.
+// Which triangles use which edges. The edges whose smaller place is p are at first[p] to first[p + 1], sorted
+// by their larger place.
 struct Edges {
   std::vector<std::size_t> first;
   std::vector<EdgeUse> use;

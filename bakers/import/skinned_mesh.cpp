@@ -87,8 +87,8 @@ std::vector<float> vertex_areas(const SkinnedMesh& mesh, std::span<const Vec3> p
       if (is_obtuse) {
         area[t[i]] += at_corner[i] < 0 ? twice / 4 : twice / 8;
       } else {
-        // Equation 7 of the paper: 1/8 of each edge's square times the opposite cotangent. The cotangent is
-        // the dot product over the length of the cross product.
+        // Equation 7 of the paper: 1/8 of the square of each edge times the opposite cotangent. A cotangent
+        // is the dot product divided by the length of the cross product.
         const int j = (i + 1) % 3;
         const int k = (i + 2) % 3;
         area[t[i]] += (opposite[j] * at_corner[j] + opposite[k] * at_corner[k]) / (8 * twice);
@@ -100,7 +100,8 @@ std::vector<float> vertex_areas(const SkinnedMesh& mesh, std::span<const Vec3> p
 
 namespace {
 
-// Calls fault(i) for all i. Reports the first i for which it returns true, and the number of such i.
+// Calls fault(i) for each i below `count`. If any call returns true, throws with the first such i and their
+// number.
 template <typename Fault>
 void refuse_any(std::size_t count, const char* what, nook_result code, Fault fault) {
   std::size_t first = 0;

@@ -1,4 +1,4 @@
-// Colour textures in the form of the file. Describes the encoded images, and how surfaces read them.
+// Colour textures as stored in the file. Describes the encoded images, and how surfaces read them.
 #pragma once
 
 #include <array>

@@ -39,8 +39,8 @@ struct MapSlope {
   float x = 0, y = 0, variance = 0;
 };
 
-// Values at a grid of points of the tile, y * side + x at ((x + 0.5) / side, (y + 0.5) / side). The tile
-// repeats. Only the base colour is required.
+// Values at a grid of points of the tile. Value y * side + x is at ((x + 0.5) / side, (y + 0.5) / side). The
+// tile repeats. Only the base colour is required.
 struct PbrMaps {
   std::uint32_t side = 0;
   std::vector<Vec3> base_colour;     // linear RGB

@@ -238,7 +238,7 @@ class SearchProgress {
   std::size_t parts_, part_ = 0;
 };
 
-// the candidates without a relief and with a plane
+// The two other candidates: no relief, and a plane.
 constexpr std::size_t other_candidates = 2;
 
 // Returns the best of several reliefs: a plane at the heights' mean, the heights smoothed over some numbers

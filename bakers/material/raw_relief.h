@@ -38,8 +38,8 @@ std::vector<Taps> relief_taps(const nook::material::Relief& relief, std::uint32_
                               Vec3 view);
 
 // Replaces the images in `values` (row x view x texel, as in RawMaterial::btf) by images on the points of the
-// relief. Each new image shows the given image of its view with the least squared error. Points that a view
-// does not show keep the colour of the point that hides them. Progress counts views.
+// relief. Each new image is chosen so that its view shows the given image with the least squared error.
+// Points that a view does not show keep the colour of the point that hides them. Progress counts views.
 void move_to_relief(const RawMaterial& raw, const nook::material::Relief& relief, std::vector<float>& values,
                     const ReliefProgress& progress = {});
 

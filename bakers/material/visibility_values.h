@@ -29,12 +29,11 @@ std::vector<float> signed_distances(std::span<const float> masks, std::uint32_t 
 // Makes targets for the VOTF's fit that depend only on whether a value is above or below the threshold.
 
 // The decoder only tests whether a value is above the threshold. Plain least squares wastes ranks on the
-// magnitudes of values. Returns the targets for the next fit. A decoded value that is
-// beyond the margin on the correct side is kept as the target, up to 1.5 times the distance of `values` to
-// the threshold. For every other value, the target exceeds the margin by as much as the decoded value fell
-// short of it. A fit to these targets has fewer errors (the squared hinge of N. Srebro, J. Rennie, T.
-// Jaakkola: Maximum-margin matrix factorization, 2004). The margin is 0.8 of the smallest distance to the
-// threshold in `values`.
+// magnitudes of values. Returns the targets for the next fit. A decoded value that is beyond the margin on
+// the correct side is kept as the target, up to 1.5 times the distance of `values` to the threshold. For
+// every other value, the target exceeds the margin by as much as the decoded value fell short of it. A fit to
+// these targets has fewer errors (the squared hinge of N. Srebro, J. Rennie, T. Jaakkola: Maximum-margin
+// matrix factorization, 2004). The margin is 0.8 of the smallest distance to the threshold in `values`.
 std::vector<float> margin_targets(std::span<const float> values, std::span<const float> decoded,
                                   float threshold);
 

@@ -45,7 +45,7 @@ TracedView trace_view(const RayScene& rays, const Camera& camera);
 // Transforms a world-space direction to view space.
 Vec3 view_direction(const Camera& camera, Vec3 direction_ws);
 
-// Placement of the training set's cameras: views that players and viewers would have.
+// Places the cameras of the training set where players and viewers would look from.
 
 // Returns a camera of one of six kinds, each with the probability below. All lengths are multiplied by the
 // scene's size:

@@ -8,7 +8,8 @@ namespace {
 
 constexpr float turn = 2 * std::numbers::pi_v<float>;
 
-// Adds rings x sides quads. point(ring, side) returns their corners. The last side connects to the first.
+// Adds a grid of `rings` x `sides` quads. point(ring, side) returns their corners. The last side connects to
+// the first.
 template <class Point>
 void add_net(TriangleSoup& soup, int rings, int sides, const Point& point) {
   const auto first = std::uint32_t(soup.position.size());

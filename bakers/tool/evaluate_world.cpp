@@ -33,7 +33,7 @@ struct Options {
   std::filesystem::path images;
   std::size_t image_count = 3;
   bool composite = false, silhouettes = false;
-  std::vector<std::filesystem::path> scenes;  // in addition to the built-in room
+  std::vector<std::filesystem::path> scenes;  // rooms to measure in addition to the built-in room
   std::vector<float> scene_metres;            // metres per unit of each scene
   bake::MeshSelection scene_meshes;           // the meshes to use, for all scenes
   measure::CompositeStudy rooms;

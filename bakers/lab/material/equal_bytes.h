@@ -24,7 +24,7 @@ std::size_t bytes_beside_btf(std::span<const std::byte> file);
 std::uint32_t n_svd_view_rank(const bake::material::RawMaterial& raw,
                               const bake::material::CompressionSettings& settings, std::size_t max_bytes);
 
-// The result of a fit with principal components of texels, which is the linear method.
+// The result of a fit with principal components of texels (PCA).
 struct PcaResult {
   std::size_t components = 0;
   std::size_t bytes = 0;  // components x (3 lights views + texels) half floats

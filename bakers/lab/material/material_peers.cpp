@@ -77,8 +77,8 @@ MethodRow measure_method(const RawMaterial& raw, CompressionSettings settings, c
                          Material* material) {
   const std::uint32_t map_side = settings.made_map_side();
   const nlohmann::ordered_json recipe = describe(settings);
-  // Rows of half floats have the same size whatever their values are, so no view map must be computed to
-  // count them.
+  // With half floats, the size of a row does not depend on its values. View maps can thus be counted without
+  // computing them.
   if (!material && settings.bits == 16) settings.map_side = 0;
   const platform::Stopwatch watch;
   Material whole = compress(raw, settings, progress);

@@ -1,4 +1,4 @@
-// Fits the methods that compressed materials are compared with to the same raw material. Returns rows for the
+// Fits other methods to the raw material of a compressed material, for comparison. Returns rows for the
 // report of `nook-lab evaluate material`.
 #pragma once
 

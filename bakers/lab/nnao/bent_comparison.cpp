@@ -172,7 +172,7 @@ BentView network_view(const GladGLContext& gl, GLuint texture, int width, int he
   return found;
 }
 
-// Returns the mean of each numeric field over the sources. The mean of ratios is geometric.
+// Returns the mean of each numeric field over the sources. For ratios, this is the geometric mean.
 Json mean_row(const std::vector<Json>& sources) {
   Json row = sources.front();
   row["scene"] = "mean";

@@ -72,8 +72,8 @@ float depth_slope(const TracedView& view, std::uint32_t x, std::uint32_t y) {
 // The fraction allows for curved surfaces.
 constexpr float depth_share = 0.005f;
 
-// The smallest total weight of matching pixels that is accepted. If it is smaller, the position only touches
-// the border of the surface.
+// The smallest total weight of matching pixels that is accepted. If the weight is smaller, the position only
+// touches the border of the surface.
 constexpr float smallest_share = 0.05f;
 
 EarlierPixels pixels_at(const TracedView& before, Vec3 position, float tolerance) {

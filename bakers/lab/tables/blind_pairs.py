@@ -61,7 +61,7 @@ def pair_picture(panels, left_method, right_method):
     halves = []
     for method in (left_method, right_method):
         shaded = (panels["scene"] * panels[method])[y:y + PART[1], x:x + PART[0]]
-        # The square root is close to what a display of sRGB does with linear light.
+        # The square root approximates the sRGB curve.
         grey = Image.fromarray(numpy.uint8(255 * numpy.sqrt(shaded.clip(0, 1)) + 0.5))
         halves.append(grey.resize((2 * PART[0], 2 * PART[1]), Image.NEAREST))
     picture = Image.new("L", (4 * PART[0] + 20, 2 * PART[1] + 60), 255)

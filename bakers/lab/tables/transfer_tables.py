@@ -155,10 +155,10 @@ def holes_table(bench):
     return table(["file", "", *MAPS], rows)
 
 
-# Numbers of clusters and vertex ranks of clustered PCA. They need slightly fewer bytes than the paper's form,
-# because each cluster has a matrix of all lobes for each vertex mode.
+# Numbers of clusters and vertex ranks of clustered PCA. Each cluster has a matrix of all lobes for each
+# vertex mode. With these numbers, a file takes slightly fewer bytes than the paper's form.
 PCA = [(38, 1), (19, 2), (12, 3), (9, 4)]
-# The same, but a matrix has only the 128 common combinations of lobes, which are stored once.
+# The same, but all matrices share 128 combinations of lobes, which are stored once.
 COMMON_PCA = [(22, 8)]
 
 

@@ -1,5 +1,5 @@
 // Code that all protocols of `nook-lab evaluate nnao` share. It reads scenes from the command line or from a
-// list of test views, traces their views, and writes the common end of the reports.
+// list of test views, traces their views, and writes what all reports have in common.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,4 +1,4 @@
-// Measures single frames of scenes. It measures the AO of every method, with pictures, or bent normals.
+// Measures single frames of scenes: the AO of every method (also as pictures), or bent normals.
 #include <algorithm>
 #include <optional>
 

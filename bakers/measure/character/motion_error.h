@@ -18,7 +18,7 @@ inline constexpr double visible_step = 0.02;
 
 struct MotionErrors {
   std::size_t frames = 0, vertex_frames = 0;        // number of steps, and number of steps times vertices
-  double largest_step = 0, largest_step_truth = 0;  // of any vertex
+  double largest_step = 0, largest_step_truth = 0;  // the largest step of any vertex
   double largest_beyond = 0;  // the largest amount by which a step of the model exceeds the ray-traced step
   double share_beyond = 0;    // fraction of vertex-frames in which the excess is more than visible_step
   std::string worst_clip;     // the clip with the largest excess

@@ -15,8 +15,8 @@ namespace nook::measure {
 struct SurfaceErrors {
   double model = 0;
   double static_bake = 0;
-  double exact_vertices = 0;  // of the vertices' own traced AO
-  double visible_share = 0;   // of the points of all poses
+  double exact_vertices = 0;  // with the vertices' own traced AO
+  double visible_share = 0;   // share of the points of all poses that are visible
 };
 
 // Traces 2,048 points in at most 24 of the poses, with 256 rays for each point. The points are spread evenly

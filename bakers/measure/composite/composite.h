@@ -20,8 +20,8 @@ namespace nook::measure {
 
 struct CompositeStudy {
   std::uint32_t width = 960, height = 540;
-  std::size_t figures = 5, views = 8;  // of each room
-  int taps = 9;                        // for the screen pass
+  std::size_t figures = 5, views = 8;  // per room
+  int taps = 9;                        // taps of the screen pass
   RoomTruth truth;
   std::filesystem::path images;  // folder for a picture of each room; empty: none
 };

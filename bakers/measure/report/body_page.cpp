@@ -204,7 +204,7 @@ Html places(const SkinnedMesh& mesh, const MeasuredBody& body, const BodyFinding
 std::vector<NamedPose> turned_poses(const MeasuredBody& body, const BodyFindings& found) {
   std::vector<NamedPose> poses = shown_poses(body, found);
   for (NamedPose& pose : poses) pose.name.append(", worst pose");
-  // Also shows the clip with the median error, as the usual case.
+  // Also shows the clip with the median error, as a typical clip.
   if (found.clips.size() > shown_clips) {
     const ClipPoses* middle = nullptr;
     for (const ClipPoses& clip : body.clips)

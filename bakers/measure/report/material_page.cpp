@@ -26,7 +26,7 @@ constexpr float pi = std::numbers::pi_v<float>;
 // not visible.
 constexpr float visibly_negative = -0.02f;
 constexpr std::array<float, 3> view_tilts{0, 0.7f, 1.2f};      // radians from the normal, along x
-constexpr std::array<float, 3> light_tilts{0.2f, 0.9f, 1.3f};  // along y
+constexpr std::array<float, 3> light_tilts{0.2f, 0.9f, 1.3f};  // radians from the normal, along y
 
 Vec3 tilted_x(float angle) {
   return {std::sin(angle), 0, std::cos(angle)};

@@ -33,7 +33,7 @@ struct Asset {
   std::string figure;                // the visible error in words
   std::string notes;                 // the reason why the bake failed, and other remarks
   std::uint64_t bytes = 0;
-  std::optional<double> seconds;  // of the bake
+  std::optional<double> seconds;  // duration of the bake
   std::string key;                // key of the bake; empty: none
   bool has_page = false;          // NAME.html exists
   std::string log;                // its path in the folder; empty: none

@@ -29,8 +29,8 @@ Words option_words(const Manifest& manifest, const std::string& place, const Jso
 void check_options(const Manifest& manifest, const std::string& place, const std::string& kind,
                    const Json& options);
 
-// The facts about a bake that follow from its words alone: which files it reads, and whether its result can
-// be cached. Making it throws what the command throws.
+// Facts about a bake that follow from its words alone: which files it reads, and whether its result can be
+// cached. outline_of() throws what the command throws.
 struct BakeOutline {
   CommandFiles files;
   bool reads_images = false;

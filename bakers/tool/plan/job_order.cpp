@@ -91,7 +91,7 @@ struct Order {
   }
 };
 
-// Jobs that are connected by needs get the smallest index among them as their group.
+// Jobs that `needs` connects form a group. The number of a group is the smallest index of its jobs.
 void find_groups(std::vector<Job>& jobs) {
   std::vector<std::size_t> parent(jobs.size());
   std::iota(parent.begin(), parent.end(), 0);

@@ -21,8 +21,7 @@ struct Job {
   Words words;         // without the options that the plan adds
   BakeOutline outline;
   std::vector<std::size_t> needs;  // jobs whose outputs this one reads
-  std::size_t group = 0;           // jobs that are connected by needs, directly or indirectly, have the same
-                                   // number
+  std::size_t group = 0;           // jobs that `needs` connects, directly or indirectly, have the same number
 };
 
 // Returns the report of an output: the same name with .json.

@@ -26,9 +26,9 @@ inline bool must_run(State state) {
 
 struct JobState {
   State state = State::missing;
-  std::string reason;     // of what must run
+  std::string reason;     // why the bake must run; empty if it need not run
   std::string key;        // empty if it is not known
-  double estimate_s = 0;  // of what must run
+  double estimate_s = 0;  // duration of the bake, if it must run
   std::vector<StampedFile> read;
 };
 

@@ -64,7 +64,7 @@ std::optional<std::uint64_t> reported_bytes(const Row& row) {
   return std::nullopt;
 }
 
-// Returns the source file beside the model that `nook report` needs for a page of this kind.
+// Returns the source file that `nook report` needs for a page of this kind, if it lies beside the model.
 std::string source_of(const fs::path& folder, const std::string& name, const std::string& kind) {
   const bool is_probe = kind == "light probe";
   if (!is_probe && kind != "character" && kind != "level of detail" && kind != "bent normals" &&
