@@ -21,7 +21,7 @@ constexpr std::size_t most_parts = std::size_t{1} << 16;
 // sufficient.
 constexpr std::size_t most_candidates = 256, most_tests = std::size_t{1} << 26;
 constexpr float reach_of_size = 0.02f;  // relative to the diagonal of a part
-constexpr float least_cosine = 0.7f;    // for both orientations, along and facing
+constexpr float least_cosine = 0.7f;    // limit for the orientations `along` and `facing`
 constexpr float same_plane = 0.01f;     // relative to the reach
 
 struct Box {
@@ -239,7 +239,7 @@ struct Contact {
 };
 
 struct Contacts {
-  std::map<Surface, double> area;  // of each surface
+  std::map<Surface, double> area;  // area of each surface
   std::map<std::pair<Surface, Surface>, Contact> of;
 };
 

@@ -39,7 +39,7 @@ std::vector<NodeState> node_states(const tinygltf::Model& model, const NodeTree&
                                    const MeshSelection& selection);
 
 struct ShownNodes {
-  std::vector<NodeState> state;    // of each node
+  std::vector<NodeState> state;    // one state per node
   std::vector<std::string> notes;  // what the file itself hides or excludes, one sentence for each reason
 
   bool shows(std::size_t node) const { return state[node] == NodeState::in; }

@@ -33,7 +33,7 @@ void append_triangles(const tinygltf::Model& model, const tinygltf::Primitive& p
                       std::vector<std::array<std::uint32_t, 3>>& out);
 
 struct ShownPrimitive {
-  const tinygltf::Primitive* primitive = nullptr;  // of the model
+  const tinygltf::Primitive* primitive = nullptr;  // a primitive of the model
   std::uint32_t node = 0, index = 0;               // the node, and the index in its mesh
   std::string what;                                // name of the primitive in messages
   Affine world_from_mesh;

@@ -10,7 +10,7 @@
 namespace nook::bake {
 
 struct EncodedImage {
-  std::string name;  // for messages: image 2 ("wood.png")
+  std::string name;  // name for messages, such as: image 2 ("wood.png")
   std::vector<std::byte> bytes;
 };
 

@@ -38,7 +38,7 @@ BakedFile bake_by_recipe(const ImportedCharacter& character, const Recipe& recip
 // again. Only the biases and the judgement change.
 
 struct CalibrationTask {
-  std::uint32_t rays = 64;  // for each vertex and pose
+  std::uint32_t rays = 64;  // rays per vertex and pose
   std::uint64_t seed = 1;
 };
 

@@ -17,7 +17,7 @@ struct BakedFigures {
   // counts only numbers and indices, without view maps, like the paper's Table I.
   std::size_t file_bytes = 0, bytes = 0;
   double se_db = 0, psnr_db = 0;
-  std::optional<double> psnr_toned_db;  // after toned() in btf_error.h
+  std::optional<double> psnr_toned_db;  // PSNR after toned() in btf_error.h
   std::optional<std::size_t> error_texels_binary, error_texels_distance;
   double seconds = 0;  // time to fit the BTF and one VOTF
 };

@@ -45,7 +45,7 @@ struct FitTask {
   tensor::TensorView values;
   std::size_t view_mode;
   std::vector<std::size_t> ranks;  // one for each mode; for the view mode, the total over all clusters
-  tensor::Pursuit pursuit;         // for K-CTA
+  tensor::Pursuit pursuit;         // only used by K-CTA
   const CompressionSettings& settings;
   const StageProgress& progress;
   const char* stage;

@@ -33,7 +33,7 @@ struct NeuralPass {
   std::vector<Vec3> lights;  // position x light
   std::vector<Tap> taps;
   Columns offset_input, offset_units, heights, input, at_position, light_input, out;
-  std::vector<Columns> units;  // of each hidden layer
+  std::vector<Columns> units;  // outputs of each hidden layer
   // Gradients of the networks' weights, and of the features (channel x position).
   std::vector<float> weights;
   Columns features, offset_features;

@@ -294,7 +294,7 @@ std::vector<Taps> relief_taps(const Relief& relief, std::uint32_t width, std::ui
 
 void move_to_relief(const RawMaterial& raw, const Relief& relief, std::vector<float>& values,
                     const ReliefProgress& progress) {
-  constexpr std::size_t views_at_once = 16;  // between two calls of progress
+  constexpr std::size_t views_at_once = 16;  // number of views between two calls of progress
   if (!relief.moves()) return;
   const ReliefTables tables = tables_of(relief, raw.width, raw.height);
   const std::size_t views = raw.views.size(), texels = raw.texels(), rows = values.size() / (views * texels);

@@ -63,7 +63,7 @@ float disagreement(const RawMaterial& raw, std::size_t texel, float height) {
 // Finds the best of the height levels for each texel. A parabola through this level and its neighbours then
 // gives the minimum between levels.
 std::vector<float> heights_of_views(const RawMaterial& raw, const ReliefProgress& progress) {
-  constexpr std::size_t texels_at_once = 512;  // between two calls of progress
+  constexpr std::size_t texels_at_once = 512;  // number of texels between two calls of progress
   const std::size_t texels = raw.texels();
   std::vector<float> heights(texels);
   Matrix cost(height_levels, Index(texels));

@@ -16,7 +16,7 @@ struct Sculpture {
   std::vector<Limb> limbs;
   float seam = 0.08f;
   float rough = 0, rough_scale = 5;  // amplitude in metres; frequency per metre
-  float fold = 0, fold_scale = 30;   // of a robe, below the height fold_below
+  float fold = 0, fold_scale = 30;   // folds of a robe, below the height fold_below
   float fold_below = 0;
   std::uint64_t seed = 0;
 

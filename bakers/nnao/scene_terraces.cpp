@@ -8,7 +8,7 @@ namespace {
 struct Land {
   std::uint64_t seed;
   float scale, tall, terrace;  // `terrace` is the height of a step; 0: no steps
-  float sharpness;             // of the steps' edges
+  float sharpness;             // sharpness of the steps' edges
   bool ridged;
 
   float height(float x, float z) const {

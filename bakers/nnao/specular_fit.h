@@ -16,8 +16,8 @@ struct SpecularFitSettings {
   // The fit reads the fields scenes, views, points_per_view, rays, width, height and seed. It chooses flat
   // pixels as often as others, because a host lights all pixels.
   DatasetSettings data{.scenes = 192, .views = 960, .points_per_view = 300, .rays = 256};
-  std::uint32_t taps = 9;   // of the network
-  std::uint32_t rays = 64;  // for each of the five roughness values
+  std::uint32_t taps = 9;   // taps of the network
+  std::uint32_t rays = 64;  // rays for each of the five roughness values
   std::uint32_t steps = 40000;
   std::uint64_t seed = 1;
 };
@@ -46,7 +46,7 @@ nook::nnao::SpecularNumbers fit_specular(const std::vector<SpecularSample>& samp
 // Mean squared errors over all samples, evaluated with the network's AO.
 struct SpecularError {
   double fitted = 0;
-  double lagarde = 0;  // of lagarde_occlusion with the same AO
+  double lagarde = 0;  // error of lagarde_occlusion with the same AO
 };
 SpecularError specular_error(const std::vector<SpecularSample>& samples,
                              const nook::nnao::SpecularNumbers& numbers);

@@ -56,8 +56,8 @@ struct TrainingState {
 
 struct TrainingProgress {
   std::uint32_t epoch = 0, epochs = 0;
-  std::size_t steps_done = 0, steps = 0;  // over all epochs
-  double validation_mse = 0;              // after the last finished epoch, at 64 taps; 0 before
+  std::size_t steps_done = 0, steps = 0;  // steps of all epochs together
+  double validation_mse = 0;              // error after the last finished epoch, at 64 taps; 0 before
 };
 // Called after every step. Return false to stop.
 using OnTraining = std::function<bool(const TrainingProgress&)>;

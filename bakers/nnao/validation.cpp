@@ -51,7 +51,7 @@ double median(std::vector<double> values) {
 // values.
 struct PointOutput {
   double own = 0, mean = 0;  // AO
-  Vec3 bent_normal;          // of the mean
+  Vec3 bent_normal;          // from the mean over all noise values
 };
 
 PointOutput output_of(const nook::nnao::Network& network, const Dataset& data, const DataPoint& point,

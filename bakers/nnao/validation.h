@@ -10,7 +10,7 @@ namespace nook::bake::nnao {
 
 struct ValidationRow {
   std::uint32_t taps = 0;
-  double mse = 0;  // of the AO of single pixels, before the blur
+  double mse = 0;  // error of the AO of single pixels, before the blur
   // Mean squared error of the mean over the noise values. This is the error after a perfect filter over 3 x 3
   // pixels.
   double mse_blurred = 0;

@@ -12,7 +12,7 @@ class Command;
 
 struct CompressionOptions {
   std::string ranks, votf_ranks;  // as the user gave them; empty: the material's defaults
-  double threshold = 0.01;        // for --ranks auto
+  double threshold = 0.01;        // only used with --ranks auto
   bake::material::CompressionSettings settings;
 };
 

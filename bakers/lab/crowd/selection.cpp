@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t sample_size = 12, group_size = 12;
 constexpr float near_m = 1.0f;
 
-constexpr float group_distance_m = 4.6f;  // from the camera to the group
+constexpr float group_distance_m = 4.6f;  // distance from the camera to the group
 constexpr int bearings = 24;              // number of directions that the camera may look from
 constexpr float body_reach_m = 1.2f;      // distance from a character's root to its fingers and toes
 

@@ -15,7 +15,7 @@ inline constexpr double spheres_in_tile = spheres / tiles;
 inline constexpr double casters = 4;        // neighbours
 inline constexpr double exact_spheres = 1;  // the ground
 inline constexpr double influence_pairs = 4;
-inline constexpr double light_lobes = 12;  // in an instance's light
+inline constexpr double light_lobes = 12;  // lobes in an instance's light
 
 // The screen-space pass.
 inline constexpr double sides = 2;

@@ -34,10 +34,10 @@ std::string joined(const std::vector<std::string>& tokens, std::size_t first, st
 
 // A global declaration up to its semicolon: `layout(...) qualifiers type name rest;`.
 struct Declaration {
-  std::string layout;  // between the parentheses
+  std::string layout;  // the text between the parentheses
   std::vector<std::string> qualifiers;
   std::string type, name;
-  std::string array;  // with its brackets
+  std::string array;  // the array size with its brackets
 
   bool has(const char* qualifier) const {
     return std::find(qualifiers.begin(), qualifiers.end(), qualifier) != qualifiers.end();

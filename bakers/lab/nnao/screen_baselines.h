@@ -13,8 +13,8 @@ inline constexpr Baseline all_baselines[] = {
     Baseline::ssao, Baseline::ssao_plus, Baseline::hbao, Baseline::n8ao,    Baseline::s4ao,  Baseline::vtk,
     Baseline::qgis, Baseline::filament,  Baseline::gtao, Baseline::bitmask, Baseline::xegtao};
 
-const char* baseline_name(Baseline baseline);    // in tables
-const char* baseline_shader(Baseline baseline);  // in shaders/
+const char* baseline_name(Baseline baseline);    // the name in tables
+const char* baseline_shader(Baseline baseline);  // the file in shaders/
 
 // What a tap outside the screen reads. With `nothing`, the tap finds no surface. With `pixel`, the tap moves
 // to the nearest pixel on the screen. With `depth`, the tap keeps its position but uses the depth of the

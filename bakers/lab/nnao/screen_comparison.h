@@ -47,7 +47,7 @@ inline constexpr char half_name[] = "nnao_half", twice_name[] = "nnao_twice";
 struct ComparisonSettings {
   measure::AoRequest request;  // the settings for all views; each view replaces the radius by its own
   std::vector<std::byte> other_network;  // a network file to compare with the embedded network, or empty
-  std::string other_name;                // in tables
+  std::string other_name;                // its name in tables
   // Names as in tables, or name:taps. If empty, or "all", measures all methods except the oracles.
   std::vector<std::string> methods;
   bool raw = true;  // also measures each method without its blur

@@ -44,7 +44,7 @@ std::vector<std::string> axes_at_edge(Baseline baseline, const TuningPlace& plac
 
 struct TunedBaseline {
   BaselineMethod method;
-  double mse;  // after denoising; mean over the views
+  double mse;  // error after denoising; mean over the views
   // Parameters whose best value is at the end of a grid that could be extended. For these parameters, the
   // grid is too small.
   std::vector<std::string> at_edge;

@@ -18,7 +18,7 @@ constexpr float into = 0.02f;  // overlap of walls in metres, so that no ray pas
 // The building stands from 0 to this size, between its outer walls. All lengths are in metres.
 struct Building {
   float width, height, depth;
-  float thickness;  // of the walls between rooms
+  float thickness;  // thickness of the walls between rooms
   float shell;      // thickness of outer walls, floor and ceiling
 };
 constexpr Building six_rooms{12, 2.8f, 9.5f, 0.1f, 0.2f}, house{8.2f, 2.5f, 4.9f, 0.06f, 0.06f};

@@ -16,7 +16,7 @@ namespace nook::measure {
 // receiver that are outside the neighbour. Darkening is the AO of the body without the neighbour minus its AO
 // with the neighbour.
 struct CasterRow {
-  float distance_m = 0;      // between the two bodies' centres, along the ground
+  float distance_m = 0;      // distance between the two bodies' centres, along the ground
   float distance_radii = 0;  // the same distance in bounding radii of the body
   const char* form = "";     // "composed" or "paper"
   double darkening = 0;

@@ -19,7 +19,7 @@ namespace nook::measure {
 inline constexpr double visible_truth = double(bake::hidden_below);
 
 struct ErrorColumns {
-  double mse = 0;  // over all welded vertices and poses, as in the paper
+  double mse = 0;  // mean over all welded vertices and poses, as in the paper
   // Only over vertex-poses whose traced AO is at least visible_truth; 0 if there are none.
   double mse_visible = 0;
   // Like mse_visible, but weighted by rest Voronoi area, because the eye sees areas and not vertices.
@@ -38,7 +38,7 @@ struct CharacterEvaluation {
   std::size_t poses = 0;
   std::uint32_t rays = 0;
   double noise_floor_mse = 0;  // expected squared error of the ray-traced targets themselves
-  double visible_share = 0;    // of all vertex-poses
+  double visible_share = 0;    // share of all vertex-poses that are visible
   // The oracle is the best possible static bake for each column. It is the mean traced AO of a vertex over
   // all poses. For mse_visible, the mean is over the poses in which the vertex is visible.
   ErrorColumns model, static_bake, oracle;
@@ -67,7 +67,7 @@ CharacterEvaluation evaluate_character(const bake::SkinnedMesh& mesh, const Char
 // allows. If far_error is 0, nothing is grouped, and the result differs from the scalar reference only by
 // rounding.
 struct UpdateErrors {
-  double mse = 0;          // over all welded vertices and poses
+  double mse = 0;          // mean over all welded vertices and poses
   double mse_visible = 0;  // only over vertex-poses whose traced AO is at least visible_truth
 };
 UpdateErrors measure_update(const CharacterModel& model, std::span<const bake::Pose> poses,
@@ -88,7 +88,7 @@ class PoseRegression {
 };
 
 struct RegressionError {
-  double mse = 0;          // over all welded vertices and poses
+  double mse = 0;          // mean over all welded vertices and poses
   double mse_visible = 0;  // only over vertex-poses whose traced AO is at least visible_truth
   double mse_area = 0;     // weighted by vertex_area
 };

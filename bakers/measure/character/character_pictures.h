@@ -30,7 +30,7 @@ void write_pair_picture(const std::filesystem::path& path, const bake::SkinnedMe
 
 struct GlossyPictureSettings {
   float roughness = 0.3f;
-  std::uint32_t rays = 96;  // for each of the four samples of a pixel
+  std::uint32_t rays = 96;  // rays for each of the four samples of a pixel
   int width_px = 300, height_px = 640;
   std::uint64_t seed = 1;
 };

@@ -29,7 +29,7 @@ struct CharacterPeer {
 };
 
 struct CharacterReportSettings {
-  std::string name;  // in the row
+  std::string name;  // name of the method in the row
   std::uint32_t rays = 256;
   std::uint64_t seed = 1;
   std::span<const CharacterPeer> peers;

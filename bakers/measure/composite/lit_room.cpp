@@ -25,7 +25,7 @@ constexpr std::size_t compared_every = 23;  // every n-th pixel is used to choos
 struct Scene {
   std::vector<Figure> figures;
   RoomView view;
-  SurfacePoints points;  // of the room's pixels
+  SurfacePoints points;  // points of the room's pixels
 };
 
 Scene seen(const MeasuredRoom& measured, const SkinnedMesh& mesh, std::span<const Pose> poses,

@@ -47,7 +47,7 @@ std::vector<std::string> frame_method_names();
 
 // A method outside the library, which gets a row of its own.
 struct FrameMethod {
-  std::string name;  // as in tables
+  std::string name;  // name of the method in tables
   int taps = 0;
   std::function<std::vector<float>(const FrameReplay&)> draw;  // returns the AO of the frame's pixels
 };

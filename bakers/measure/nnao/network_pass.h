@@ -56,7 +56,7 @@ struct NetworkForm {
   int taps = 9;
   bool half_resolution = false;
   int blur = 1;       // how many times the filter runs
-  bool bent = false;  // with bent normals
+  bool bent = false;  // true if the pass computes bent normals
   int temporal_frames = 0;
   // The other methods use this path too, so that times are comparable.
   nook_nnao_path path = NOOK_NNAO_PATH_FRAGMENT;

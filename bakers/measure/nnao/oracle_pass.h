@@ -13,7 +13,7 @@ enum class Oracle { solid, bitmask };
 inline constexpr Oracle all_oracles[] = {Oracle::solid, Oracle::bitmask};
 inline constexpr int oracle_taps = 1024;
 
-const char* oracle_name(Oracle oracle);  // in tables
+const char* oracle_name(Oracle oracle);  // the name in tables
 
 class OraclePass {
  public:

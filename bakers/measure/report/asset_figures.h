@@ -12,7 +12,7 @@ namespace nook::report {
 struct AssetFigures {
   AssetState state = AssetState::unmeasured;
   std::optional<double> over_limit;
-  std::string figure, notes;  // as in Asset
+  std::string figure, notes;  // the same meaning as in Asset
 };
 
 // Returns the kind of the file as the page shows it, such as "character". `facts` is the file's row from

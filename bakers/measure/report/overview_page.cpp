@@ -13,7 +13,7 @@ namespace {
 struct Sums {
   std::array<std::size_t, asset_state_count> states{};
   std::array<std::size_t, asset_change_count> changes{};
-  std::size_t assets = 0;  // without the assets that are gone
+  std::size_t assets = 0;  // number of assets, without those that are gone
   double bytes = 0, seconds = 0;
 };
 

@@ -13,12 +13,12 @@
 namespace nook::tool::plan {
 
 struct Job {
-  std::string kind;    // of `nook bake`
+  std::string kind;    // kind of bake, as in `nook bake KIND`
   std::string source;  // the file that the rule matched; all paths are relative to the manifest's folder
   std::string output;  // ends in .nook; serves as the name of the job
   std::string place;   // place of its rule in the manifest
   std::string preset;  // preset of a character; otherwise empty
-  Words words;         // without the options that the plan adds
+  Words words;         // the words of the bake, without the options that the plan adds
   BakeOutline outline;
   std::vector<std::size_t> needs;  // jobs whose outputs this one reads
   std::size_t group = 0;           // jobs that `needs` connects, directly or indirectly, have the same number

@@ -12,7 +12,7 @@ namespace nook::tool::plan {
 using Json = nlohmann::json;
 
 struct Rule {
-  std::string place;               // in the manifest, such as "rules[2]"
+  std::string place;               // place of the rule in the manifest, such as "rules[2]"
   std::vector<std::string> match;  // patterns (glob.h)
   Json settings;                   // the rule without `match`
 };

@@ -42,8 +42,8 @@ struct KnownOutput {
 };
 
 struct Memory {
-  std::map<std::string, KnownBake> bakes;      // by output
-  std::map<std::string, KnownOutput> outputs;  // by output
+  std::map<std::string, KnownBake> bakes;      // the key is the output
+  std::map<std::string, KnownOutput> outputs;  // the key is the output
 };
 
 // Returns an empty memory if the file is missing or damaged, or if another tool wrote it.

@@ -40,7 +40,7 @@ struct StateOptions {
 
 struct States {
   std::vector<JobState> jobs;
-  Memory memory;  // for the next plan
+  Memory memory;  // what the next plan can reuse
 };
 
 // The working directory must be the manifest's folder, and the process must be pinned to the instruction set
