@@ -54,8 +54,8 @@ struct PlacedMesh {
 // primitives. A file may show at most 2^20 primitives.
 void append_mesh(const tinygltf::Model& model, const PlacedMesh& placed, FileMesh& out, MeshRepairs& repairs);
 
-// Fails with BAD_FILE if more than 1 % of the skinned vertices have no weights. So many missing weights are
-// not an oversight of the author.
+// Fails with BAD_FILE if more than 1 % of the skinned vertices have no weights. So many missing weights mean
+// a fault, and not a few overlooked vertices.
 void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings);
 
 }  // namespace nook::bake

@@ -73,7 +73,7 @@ struct Builder {
   }
 
   void require_invertible(const Affine& a, const char* what, std::uint32_t node) const {
-    // The size is relative to the matrix, because a 0.01 scale alone gives a determinant of 1e-6.
+    // The determinant is compared with the size of the matrix, because a scale of 0.01 alone gives 1e-6.
     double size = 0;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) size = std::max(size, std::abs(a.m[4 * i + j]));

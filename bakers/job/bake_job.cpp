@@ -54,8 +54,8 @@ void BakeJob::run(const Bake& bake, std::size_t threads) {
       file = bake(
           [this](JobStage stage, std::size_t done, std::size_t total) { return report(stage, done, total); });
     });
-    // A request to cancel is honoured even after the last progress callback, because the caller does not need
-    // the file.
+    // A request to cancel has an effect even after the last progress callback, because the caller does not
+    // need the file.
     if (cancelled_) throw Failure(NOOK_ERROR_CANCELLED, "cancelled shortly before the end of the bake");
   } catch (...) {
     outcome = outcome_of(std::current_exception());

@@ -51,10 +51,10 @@ Vec3 direction_from_angles(float tilt_deg, float azimuth_deg);
 
 // Stores raw materials in files, so that you can evaluate a compression later. The file is a .nook container
 // of the kind "MRAW", version 2 (in version 1 the BTF was black where views pass through), with the sections
-//   HEAD  u32 lights, views, width, height; u32 1 with a VOTF; u32 length and bytes of the name
+//   HEAD  u32 lights, views, width, height; u32, 1 if there is a VOTF; u32 length and bytes of the name
 //   DIRS  f32 x, y, z of the lights, then of the views
 //   BTF_  half floats, in the order of RawMaterial::btf
-//   MASK  with a VOTF one bit a texel, low bits first
+//   MASK  only with a VOTF: one bit per texel, low bits first
 
 inline constexpr ContainerKind raw_kind{four_letters("MRAW"), "raw material", 2, 2};
 

@@ -40,8 +40,8 @@ std::vector<Vec3> chosen_of(const std::vector<Vec3>& all, const std::vector<std:
   return out;
 }
 
-// Returns the middle of a material without the mask. It has either only the held-out views and lights, or
-// only the others.
+// Returns the middle of a material, without its mask. The result has either only the held-out views and
+// lights, or only the others.
 RawMaterial part_of(const RawMaterial& raw, bool held_out) {
   const std::vector<std::size_t> lights = indices(raw.lights.size(), held_out),
                                  views = indices(raw.views.size(), held_out);

@@ -26,7 +26,7 @@ Places weld(std::span<const Vec3> positions) {
 
 namespace {
 
-// Triangles whose normals differ by a larger angle do not share vertex normals, as in exporters.
+// Triangles whose normals differ by a larger angle do not share vertex normals. Exporters do the same.
 constexpr float cos_crease = 0.5f;  // 60 degrees
 
 // Returns the normal. If its angle to the face's normal exceeds max_normal_tilt, it is turned towards the

@@ -93,8 +93,9 @@ struct Trainer {
   }
 };
 
-// A small network depends on its initial values, because some of them leave units without effect. So we train
-// several starts. Each round trains the remaining starts on the same batches, and keeps the best quarter.
+// A small network depends on its initial values, because some of them leave units without effect. So we start
+// with several sets of values. Each round trains the remaining sets on the same batches, and keeps the best
+// quarter.
 constexpr std::size_t first_starts = 16, last_starts = 4;
 
 std::size_t steps_of_starts(std::size_t length) {

@@ -11,7 +11,7 @@
 namespace nook::lab {
 
 enum class InstructionClass {
-  vector,        // full rate
+  vector,        // vector arithmetic at the full rate
   quarter_rate,  // transcendental functions and multiplication of 32-bit integers
   fetch,         // textures and buffers
   store,

@@ -53,7 +53,7 @@ struct Overview {
   std::string folder;  // the title of the page
   std::string links;   // the URL-encoded path from the page to the folder, with a slash at the end; empty: no
                        // links
-  std::string made;    // the time
+  std::string made;    // the time at which the page was made
   std::string before;  // the time of the earlier page that this one is compared with; empty: none
   std::vector<LimitRow> limits;
   std::vector<Asset> assets;  // in the order of the page

@@ -169,8 +169,8 @@ std::vector<Capsule> engine_capsules(const CharacterModel& model, CasterFormat f
     c.radius_a *= factor;
     c.radius_b *= factor;
     if (format != CasterFormat::gltf) {
-      // The mean projected area of a convex body is a quarter of its surface area (Cauchy). The lateral area
-      // of a cone frustum is about that of a cylinder with the mean radius.
+      // The mean projected area of a convex body is a quarter of its surface area (Cauchy). A cone frustum
+      // has about the lateral area of a cylinder with the mean radius.
       const float half = 0.5f * length(c.b - c.a);
       const float area = half * 0.5f * (c.radius_a + c.radius_b) +
                          0.5f * (c.radius_a * c.radius_a + c.radius_b * c.radius_b);
