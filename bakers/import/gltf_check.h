@@ -20,7 +20,7 @@ void check_types(const tinygltf::Model& model);
 //   - indices that mean a primitive restart;
 //   - bounds that do not match;
 //   - attributes of forbidden types.
-// This function never fails. The code that later reads an accessor reports an unreadable one. Reads each
+// This function never fails. The code that reads an accessor later reports if it is unreadable. Reads each
 // accessor once, and at most 2^26 elements, so the time is linear in the file size.
 std::vector<std::string> document_warnings(const tinygltf::Model& model);
 

@@ -251,7 +251,7 @@ void append_mesh(const tinygltf::Model& model, const PlacedMesh& placed, FileMes
 }
 
 void add_warnings(const MeshRepairs& repairs, std::vector<std::string>& warnings) {
-  // Counted in integers: at most one in a hundred.
+  // Uses integers: at most one vertex in a hundred.
   if (repairs.without_weights > repairs.skinned / 100)
     throw Failure(
         NOOK_ERROR_BAD_FILE,

@@ -10,7 +10,7 @@
 //   views      u32 count; for each view: f32 tilt and azimuth in radians, u32 number of lights, and f32 tilt
 //              and azimuth of each light
 //   texels     u32 width and height; with the R: u32 count of rotations, 9 f32 for each, not applied
-//   colour     u32 largest number of components; i32 colour model; three f32 means; f32 matrix of 3 x 3, by rows
+//   colour     u32 largest number of components; i32 model; three f32 means; f32 matrix, 3 x 3, by rows
 //   channels   for each: u8 bytes of a number (2, 4 or 8: IEEE floats); u32 components, rows and columns; the
 //              singular values; U, rows x components; V times the singular values, columns x components
 // There are two layouts. Either rows are pairs of light and view (light + lights * view) and columns are

@@ -60,8 +60,8 @@ struct ScreenPixel {
   std::uint8_t edges = 0;
 };
 
-// Computes what the pass computes for a pixel before its filter. Pixels beyond the border and pixels without
-// a surface are unoccluded.
+// Computes pixels as the pass does before its filter. Pixels beyond the border and pixels without a surface
+// are unoccluded.
 class UnfilteredPass {
  public:
   UnfilteredPass(const nook::nnao::Network& network, const RayScene& rays, const TracedView& traced,

@@ -41,7 +41,7 @@ enum class MoverPart : std::uint8_t {
   sky,
   mover,      // the body
   uncovered,  // the body hid this surface in a recent frame
-  beside,  // the body is or was nearer than the AO radius, in this or a recent frame, so that the AO changes
+  beside,     // the body is within the AO radius in this frame or was in a recent one, so the AO changes
   elsewhere
 };
 inline constexpr std::size_t mover_part_count = 5;

@@ -11,7 +11,7 @@ constexpr BaselineMethod methods[] = {
     //   S4AO      Godot's Environment and pull request 109447, quality Medium, intensity 2
     //   VTK       vtkSSAOPass.h, 32 points, no blur; a bias of a hundredth of the radius, as in Kitware's article
     //   QGIS      pull request 49702, intensity and threshold 0.5, 64 points
-    //   Filament  quality Low, bias 0.5 mm at radius 0.3 m, power 2; full resolution instead of its default, half
+    //   Filament  quality Low, bias 0.5 mm at radius 0.3 m, power 2; full resolution (its default is half)
     //   XeGTAO    XeGTAO.h, 1.30: radius multiplier 1.457, falloff range 0.615, final power 2.2, denoised once
     {Baseline::n8ao, 16, {1, 5, 0.2f, 0, false, Border::depth, Denoiser::disc}, true},
     {Baseline::s4ao, 12, {1, 1, 0.25f, 0, false, Border::depth, Denoiser::none, 2}, true},

@@ -15,7 +15,7 @@ using bake::Surface;
 constexpr float door_height = 2.1f;
 constexpr float into = 0.02f;  // overlap of walls in metres, so that no ray passes through a seam
 
-// The building stands from 0 to this size, between its outer walls. All lengths are in metres.
+// The space between the outer walls reaches from 0 to this size. All lengths are in metres.
 struct Building {
   float width, height, depth;
   float thickness;  // thickness of the walls between rooms

@@ -7,7 +7,7 @@
 namespace nook::measure {
 namespace {
 
-// Sets the projection matrix, as made by glFrustum, that gives the pixels the rays of the view. The pass
+// Sets a projection matrix like those of glFrustum, with which each pixel has its ray of the view. The pass
 // reads linear depth, so the third row only has to make the matrix invertible.
 void set_projection(const GpuView& view, float (&projection)[16]) {
   std::fill_n(projection, 16, 0.0f);

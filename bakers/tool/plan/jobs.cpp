@@ -115,8 +115,8 @@ struct Builder {
   const Manifest& manifest;
   std::vector<Job> jobs;
 
-  // `inputs` are the positional arguments. `about` is the path from which the words in braces in patterns of
-  // file names are made.
+  // `inputs` are the positional arguments. `about` is the path that {dir} and {stem} in file name patterns
+  // refer to.
   void add(const std::string& place, const std::string& kind, const Words& inputs, const std::string& about,
            const std::string& output, const Json& settings) {
     Job job;
