@@ -16,14 +16,14 @@ struct AnimalRig::FootPlan {
   Vec3 place;          // metres, rest space
   bool hangs = false;  // true if `place` is in the space of the hip's parent, so that it moves with the body
   float planted = 1;   // 1: the foot keeps its direction in the world; 0: the foot turns with the leg
-  float curl = 0;      // bend of the foot to the back, radians
+  float curl = 0;      // backward bend of the foot, radians
   // Factor for the bend of each joint after the hip. If empty, all factors are 1.
   std::vector<float> bend_share = {};
 };
 
 struct AnimalRig::Plan {
   AnimalAct act = AnimalAct::rest;
-  float amount = 1;            // factor of all joint turns; small if the animal rests
+  float amount = 1;            // factor for all joint turns; small if the animal rests
   Mat3x4 body;                 // motion of the whole body relative to its feet
   std::vector<FootPlan> foot;  // one for each leg
   float phase = 0;             // phase of the gait, 0 to 1
@@ -147,9 +147,8 @@ void AnimalRig::find_chains() {
 
 namespace {
 
-// Returns the phase of a leg in a gait with planted feet. With four legs, the gait is a walk or a trot. Two
-// legs alternate. With more legs, the gait moves tripods or similar groups, in which neighbouring legs never
-// move at the same time.
+// Returns the phase of a leg in a gait with planted feet. Four legs walk or trot. Two legs alternate. With
+// more legs, groups of legs such as tripods move together. Neighbouring legs never move at the same time.
 float leg_phase(const LegChain& leg, std::size_t legs, bool trots) {
   const float side = leg.left ? 0.0f : 0.5f;
   if (legs != 4) return std::fmod(side + 0.5f * float(leg.row % 2), 1.0f);
@@ -229,7 +228,7 @@ void AnimalRig::place_feet(Plan& plan, PoseRandom& random) const {
 void AnimalRig::stand(Plan& plan, PoseRandom& random) const {
   for (const LegChain& leg : legs_) {
     Vec3 move = in_body({0.02f * random.normal(), 0, 0.05f * random.normal()});
-    if (random.chance(0.08f)) move.y += random.between(0, 0.08f);  // the leg rests or stamps
+    if (random.chance(0.08f)) move.y += random.between(0, 0.08f);  // the leg is lifted a little
     plan.foot.push_back({leg.end + leg.length_m * move});
   }
 }
@@ -250,8 +249,9 @@ void AnimalRig::step(Plan& plan, PoseRandom& random) const {
   }
 }
 
-// Returns the position of a leg's end if the leg swings from its hip. `forward` and `aside` are the angles to
-// the front and away from the body, in radians. `stretch` is the leg's length divided by its length at rest.
+// Returns the position of a leg's end after the leg swings from its hip. `forward` and `aside` are the angles
+// in radians by which the leg swings to the front and away from the body. `stretch` is the leg's length
+// divided by its length at rest.
 Vec3 AnimalRig::swung(const LegChain& leg, float forward, float aside, float stretch) const {
   const Vec3 hip = origin(leg.bones.front());
   const float mirror = leg.left ? 1.0f : -1.0f;
@@ -261,9 +261,9 @@ Vec3 AnimalRig::swung(const LegChain& leg, float forward, float aside, float str
 }
 
 // Makes gallops, bounds, runs and jumps. Legs swing from the hips, and all feet may be in the air. In a
-// gallop, hind and fore legs swing in opposite directions, and the spine bends with them. When the legs come
-// together, some animals bend the spine up and others down. A leg that swings to the front is bent. A leg
-// that swings to the back is stretched.
+// gallop, hind and fore legs swing in opposite directions, and the spine bends with them. When hind and fore
+// legs come together, some animals bend the spine up and others bend it down. A leg that swings forwards is
+// bent. A leg that swings backwards is stretched.
 void AnimalRig::leap(Plan& plan, PoseRandom& random) const {
   const float amplitude = random.between(20, 65) * degree;
   const float bent = random.between(0.05f, 0.45f);
@@ -276,7 +276,7 @@ void AnimalRig::leap(Plan& plan, PoseRandom& random) const {
     const float side = gallops ? (leg.left ? 0 : lead) : (leg.left ? 0 : 0.5f);
     const float angle = 2 * std::numbers::pi_v<float> * (plan.phase + row + side + 0.03f * random.normal());
     const float forward = amplitude * std::cos(angle) + 8 * degree * random.normal();
-    const float air = std::max(0.0f, -std::sin(angle));  // greater than 0 while the leg swings to the front
+    const float air = std::max(0.0f, -std::sin(angle));  // greater than 0 while the leg swings forwards
     const float stretch = 1.1f - bent * air - 0.1f * random.unit();
     plan.foot.push_back({swung(leg, forward, 4 * degree * random.normal(), stretch), true, 0.0f,
                          (0.25f + 0.75f * air) * curl});
@@ -286,7 +286,7 @@ void AnimalRig::leap(Plan& plan, PoseRandom& random) const {
         random.between(-0.3f, 0.5f) * amplitude * std::cos(2 * std::numbers::pi_v<float> * plan.phase);
 }
 
-// Makes kicks, crouches, and steps to any place that the legs can reach from a standing body.
+// Makes kicks and crouches. A foot may step to any place that its leg can reach while the body stands.
 void AnimalRig::move_feet(Plan& plan, PoseRandom& random) const {
   const bool tucked = random.chance(0.25f);  // all legs are drawn up, as in jumps and falls
   const float curl = random.between(15, 90) * degree;
@@ -320,7 +320,7 @@ struct Bends {
 };
 
 // A joint that is bent at rest bends further in the same direction. A joint that is straight at rest bends
-// like a knee: the lower part swings to the back.
+// like a knee: the lower part swings backwards.
 Bends bends_of(std::span<const Vec3> points, Vec3 left) {
   constexpr float least_bend = 0.05f;  // radians
   Bends bends;
@@ -334,9 +334,9 @@ Bends bends_of(std::span<const Vec3> points, Vec3 left) {
   return bends;
 }
 
-// Returns the turns of all joints after the hip if the leg is flexed by an angle in radians. A negative
-// flexion stretches the leg. Each joint keeps at least a tenth of its rest bend, so that a stretched leg does
-// not bend the wrong way.
+// Returns the turns of all joints after the hip for a leg that is bent by `flexion` radians per joint. A
+// negative flexion stretches the leg. Each joint keeps at least a tenth of its rest bend, so that a stretched
+// leg does not bend in the wrong direction.
 std::vector<Mat3x4> flexed(std::span<const Vec3> points, const Bends& bends, float flexion,
                            std::span<const float> share) {
   std::vector<Mat3x4> turns;
@@ -363,8 +363,8 @@ std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
   std::vector<Vec3> points;
   for (const std::size_t b : leg.bones) points.push_back(origin(b));
   points.push_back(leg.end);
-  // A shoulder blade is a short bone at the top of a leg with several bones. It makes a part of the turn
-  // when the leg swings.
+  // A shoulder blade is a short bone at the top of a leg with at least three bones. When the leg swings, the
+  // shoulder blade makes a part of the turn.
   constexpr float girdle_share = 0.25f;
   const bool girdle = leg.bones.size() >= 3 && length(points[1] - points[0]) < 0.3f * leg.length_m;
   Mat3x4 first;
@@ -390,13 +390,13 @@ std::vector<Mat3x4> AnimalRig::reach(const LegChain& leg, Vec3 place,
   return all;
 }
 
-// Bends each chain as a whole, with small random differences between its joints.
+// Bends each chain as a whole, and adds small random turns to its joints.
 void AnimalRig::bend_chains(const Plan& plan, std::vector<Mat3x4>& local, PoseRandom& random) const {
   const auto bend = [&](const std::vector<std::size_t>& chain, Vec3 whole, Vec3 curl, float jitter) {
     const float share = 1 / float(chain.size());
     for (std::size_t i = 0; i < chain.size(); ++i) {
-      // `curl` has opposite signs at the root and at the end. Together with `whole`, it can give a chain the
-      // shape of an S.
+      // `curl` has opposite signs at the root and at the end. Together with `whole`, it can give a chain an S
+      // shape.
       const float at = chain.size() > 1 ? float(i) * 2 / float(chain.size() - 1) - 1 : 0;
       const Vec3 turn = share * whole + share * at * curl + jitter * std::sqrt(share) * normal3(random);
       if (posable_[chain[i]]) local[chain[i]] = rotation_about(origin(chain[i]), turn);
@@ -410,7 +410,7 @@ void AnimalRig::bend_chains(const Plan& plan, std::vector<Mat3x4>& local, PoseRa
                   a * snake * 10 * degree * random.normal(), a * 5 * degree * random.normal()}),
          in_body({a * snake * 5 * degree * random.normal(), a * snake * 12 * degree * random.normal(), 0}),
          a * 3 * degree);
-  // Heads look around, graze or are raised. A head stays level while the neck moves. A standing body often
+  // The head looks around, grazes or is raised. It stays level while the neck moves. A standing body often
   // moves only its head.
   const float h = plan.act == AnimalAct::rest && random.chance(0.5f) ? 1 : a;
   const float kind = random.unit();

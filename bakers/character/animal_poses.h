@@ -1,6 +1,6 @@
-// Makes poses for bodies that are not human. Any number of legs walk with planted feet. Spines, necks and
-// tails bend as chains. Jaws and wings turn like hinges. The ranges are derived from the lengths of the limbs
-// and from their bends in the rest pose.
+// Makes poses for bodies that are not human. Any number of legs can walk with planted feet. Spines, necks and
+// tails bend as chains. Jaws and wings turn like hinges. The ranges of motion depend on the lengths of the
+// limbs and on their bends in the rest pose.
 #pragma once
 
 #include <span>
@@ -11,14 +11,14 @@
 
 namespace nook::bake {
 
-// What a body does in one pose. It rests, or it walks or trots with planted feet. In a leap, such as a gallop
-// or a jump, the legs swing from the hips. In a free pose, each part moves independently. The shares are high
-// for rest and gait, because game characters stand or walk most of the time.
+// What a body does in one pose. At rest or in a gait (walk or trot), its feet are planted. In a leap, such as
+// a gallop or a jump, the legs swing from the hips. In a free pose, each part moves independently. Rest and
+// gait have large shares, because game characters stand or walk most of the time.
 enum class AnimalAct : std::uint8_t { rest, gait, leap, free };
 constexpr float rest_share = 0.3f, gait_share = 0.25f, leap_share = 0.25f;
 AnimalAct random_act(PoseRandom& random);
 
-// One leg: the joints from the hip to the end of the leg, that stands on the ground in the rest pose.
+// One leg: the joints from the hip to the end of the leg, which stands on the ground in the rest pose.
 struct LegChain {
   std::vector<std::size_t> bones;  // from the hip; without the foot
   std::vector<std::size_t> foot;
@@ -37,9 +37,9 @@ class AnimalRig {
   std::span<const LegChain> legs() const { return legs_; }
 
   // Returns the turns of a leg's bones, from the hip on, that bring the end of the leg to `place`. `place` is
-  // in the space of the hip's parent at rest. If it is out of reach, the leg stretches towards it. bend_share
-  // contains a factor for the bend of each joint after the hip. If it is shorter than the leg, the factor of
-  // the remaining joints is 1.
+  // in the space of the hip's parent at rest. If `place` is out of reach, the leg stretches towards it.
+  // bend_share contains a factor for the bend of each joint after the hip. If it has too few factors, the
+  // remaining joints have the factor 1.
   std::vector<Mat3x4> reach(const LegChain& leg, Vec3 place, std::span<const float> bend_share = {}) const;
 
  private:

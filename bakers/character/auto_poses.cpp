@@ -29,8 +29,8 @@ class PlannedRig {
   PlannedRig(const SkinnedMesh& mesh, std::vector<Joint> joints);
 
   // Lets a hand reach for a place on the body or for the other hand. Tries several arm poses and takes the
-  // one in which the hand is nearest to the place. This is needed because hands cast and receive strong
-  // shadows only near other parts, and freely swinging arms rarely bring them there.
+  // one in which the hand is nearest to the place. Hands cast and receive strong shadows only near other body
+  // parts, and arms that swing at random rarely bring them there.
   void reach(BodyPlan& plan, PoseRandom& random) const;
 
   Pose pose(const BodyPlan& plan, PoseRandom& random) const;
@@ -69,7 +69,7 @@ Vec3 place_in(const Pose& pose, const BodyPoint& place) {
 }
 
 // Returns the direction that the motion-capture pose gives to a limb's joint, in the axes of PriorLimbs.
-// Returns zero if it gives none.
+// Returns zero if the pose has no direction for the joint.
 Vec3 wished(const BodyPlan& plan, const Joint& joint) {
   const PriorLimbs& limbs = plan.motion.limbs[joint.side == Side::right ? 1 : 0];
   switch (joint.role) {
@@ -95,12 +95,12 @@ std::size_t count_of(std::span<const Joint> joints, JointRole role) {
       std::count_if(joints.begin(), joints.end(), [&](const Joint& joint) { return joint.role == role; }));
 }
 
-// For each bone, returns true if it is a clavicle that starts near the shoulder instead of near the
+// For each bone, returns true if the bone is a clavicle that starts near the shoulder instead of near the
 // breastbone. Such a clavicle swings the arm as much as the upper arm's own joint does.
 std::vector<char> shoulders_of(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                                const BodyFrame& frame) {
-  // Share of the distance from the middle of the body to the upper arm. Clavicles of people start at 0.1 to
-  // 0.45.
+  // Share of the distance from the middle of the body to the upper arm. A human clavicle starts at a share of
+  // 0.1 to 0.45.
   constexpr float least_share = 0.65f;
   std::vector<char> carries(joints.size(), 0);
   for (std::size_t arm = 0; arm < joints.size(); ++arm) {
@@ -212,7 +212,7 @@ Vec3 PlannedRig::joint_turn(std::size_t b, const BodyPlan& plan, PoseRandom& ran
       return laden_[b] ? Vec3{} : turn;
     }
     case JointRole::thigh:
-      // Flexion swings the knee forwards, which is a turn about -left.
+      // Flexion moves the knee forwards. This is a turn about -left.
       return -limb.hip_flexion * left + mirror * limb.hip_abduction * forward + mirror * limb.hip_twist * up;
     case JointRole::calf:
       return limb.knee * left;
@@ -275,7 +275,7 @@ Vec3 PlannedRig::arm_direction(const BodyPlan& plan, std::size_t arm) const {
   return normalised(in_body({mirror * direction.x, direction.y, direction.z}));
 }
 
-// When an arm swings, turns the clavicle that carries it by a part of the angle.
+// When an arm swings, the clavicle that carries it turns by a part of the arm's angle.
 void PlannedRig::swing_shoulders(const BodyPlan& plan, std::vector<Mat3x4>& local) const {
   for (std::size_t arm = 0; arm < joints_.size(); ++arm) {
     const std::int32_t shoulder = tree_.parent[arm];
@@ -307,13 +307,13 @@ void PlannedRig::place_arms(const BodyPlan& plan, std::vector<Mat3x4>& local) co
     local[b] = rotation_about(origin, limb.arm_twist * own) * rotation_about(origin, shortest_arc(rest, own));
     const std::int32_t elbow = joints_[b].continuation;
     if (elbow < 0) continue;
-    // Relative to the posed upper arm, the forearm bends forwards, a little up and inwards. The direction is
-    // then turned back into rest axes.
+    // Relative to the posed upper arm, the forearm bends forwards, a little up and inwards. We then turn this
+    // direction back into rest axes.
     const Vec3 lean = forward + 0.5f * up - 0.5f * mirror * left + limb.elbow_lean;
     const Vec3 inward = normalised(lean - dot(lean, wish) * wish);
     const Vec3 axis_posed = normalised(cross(wish, inward));
     const Vec3 axis = transform_vector(inverse_rigid(carried ? above * local[b] : local[b]), axis_posed);
-    // The rest pose may already have a slight bend. So first straighten the elbow, then bend it.
+    // The rest pose may already have a slight bend. So we first straighten the elbow and then bend it.
     const Vec3 fore = limb_direction(mesh_, joints_, std::size_t(elbow));
     const Vec3 joint = joint_origin(mesh_.bones[std::size_t(elbow)]);
     const Mat3x4 straighten =
@@ -374,7 +374,7 @@ std::vector<Pose> poses_of_person(const SkinnedMesh& mesh, std::span<const float
 }
 
 // Returns the share of edges that a pose may tear. The most extreme poses of clips tear about twice as many
-// edges as the mean pose of the clips.
+// edges as the average pose.
 float allowed_tears(double torn_by_clips) {
   return std::max(0.0005f, 2 * float(torn_by_clips));
 }
@@ -390,7 +390,7 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
     PoseRandom random(mix_bits(seed ^ mix_bits(i)));
     constexpr int tries = 12;
     // The allowed depth is larger than for people, because the legs of animals are closer together and touch
-    // in a walk.
+    // while walking.
     constexpr float allowed = 1.0f;
     float best = 0;
     std::vector<Vec3> posed;
@@ -398,8 +398,8 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
       Pose pose = rig.pose(random_act(random), random);
       skin_positions(mesh, pose, posed);
       const float torn = float(count_torn(mesh, edges, posed)) / std::max(1.0f, float(edges.size()));
-      // The depth or the torn share, relative to its limit, whichever is larger. Up to 1, the pose is
-      // allowed.
+      // The depth and the torn share, each divided by its limit; the larger of both. A pose is allowed up to
+      // 1.
       const float beyond = std::max(collision.depth(pose) / allowed, torn / allowed_tears(torn_by_clips));
       if (attempt == 0 || beyond < best) {
         best = beyond;

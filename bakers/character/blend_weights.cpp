@@ -20,14 +20,14 @@ namespace {
 // from 0.001 to 0.01, and for any position weight from 0 to 2 per square metre.
 constexpr double ridge = 3e-3;
 constexpr double position_weight_per_m2 = 1;
-// The weight of the spheres in the loss. A weight of 3 lowers the error of AO by neighbours by a fifth. A
-// weight of 30 hardly lowers it further.
+// The weight of the spheres in the loss. A weight of 3 lowers the error of the AO from neighbours by a fifth.
+// A weight of 30 lowers it hardly any further.
 constexpr double sphere_weight = 10;
 constexpr std::size_t spheres_per_pose = 16;
-// Lengths in radii of the body. The nearest spheres are a hand's breadth away. From the farthest spheres, the
-// body looks small.
+// Lengths are in radii of the body. The nearest spheres are about a hand's width away. The farthest spheres
+// are so far away that the body looks small from there.
 constexpr float nearest_sphere = 0.15f, farthest_sphere = 4, sphere_radius = 0.15f;
-// This is many times the number of entries per vertex, so that the weights are well determined.
+// Many times the number of entries per vertex, so that the poses determine the weights well.
 constexpr std::size_t max_poses = 64;
 
 struct Frame {
@@ -75,7 +75,7 @@ struct TestSphere {
   float radius = 0;
   double weight = 0;
 
-  // Returns the share of the hemisphere above a place that the sphere covers, clipped at the horizon.
+  // Returns the share of a surface point's hemisphere that the sphere covers, clipped at the horizon.
   double share(const Frame& frame) const {
     const Vec3 d = (centre - frame.position) * (1 / radius);
     return double(form_factor_exact(dot(d, frame.normal), dot(d, d)));
@@ -120,7 +120,7 @@ Equations equations_of(const std::vector<PosedBody>& bodies, std::size_t vertex,
     const Frame& own = body.vertex[vertex];
     for (Eigen::Index k = 0; k < n; ++k) {
       const Frame& f = body.key_point[key_point[std::size_t(k)]];
-      // Positions are relative to the vertex, so the weighted sum should be 0 for weights with the sum 1.
+      // Positions are relative to the vertex. So the weighted sum should be 0 if the weights sum to 1.
       const Vec3 away = f.position - own.position;
       rows.col(k) << double(f.normal.x), double(f.normal.y), double(f.normal.z), c * double(away.x),
           c * double(away.y), c * double(away.z);
@@ -129,7 +129,7 @@ Equations equations_of(const std::vector<PosedBody>& bodies, std::size_t vertex,
     wanted << double(own.normal.x), double(own.normal.y), double(own.normal.z), 0, 0, 0;
     e.gram += rows.transpose() * rows;
     e.right += rows.transpose() * wanted;
-    // In one pose, the spheres have the same offsets from every vertex, so that neighbouring vertices get
+    // In one pose, the spheres have the same offsets from every vertex. This gives neighbouring vertices
     // similar weights.
     Random random(b);
     add_spheres(e, body, vertex, key_point, body_radius, random, share);

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t block_poses = 32;
 
 // Returns the quadratic form of the shadows of one block (count x padded), without the constant term.
-// The values in `shadow` are replaced by the gradient of the form with respect to the shadows.
+// Replaces the values in `shadow` by the gradient of the form with respect to the shadows.
 double quadratic_form(const CachedObjective& cache, std::size_t first, std::size_t count, float* shadow) {
   const auto rows = Eigen::Index(count);
   Eigen::Map<CachedObjective::RowMatrix> x(shadow, rows, cache.a.rows());
@@ -119,7 +119,7 @@ double descend_non_linear(FitState& state, const TrainingSet& set, const LbfgsSe
   try {
     solver.minimize(objective, x, reached);
   } catch (const std::runtime_error&) {
-    // If a line search finds no better point, the block ends and keeps the best point so far.
+    // If a line search finds no better point, the descent ends and keeps the best point so far.
   } catch (const std::logic_error&) {
   }
   state.parameters = best;

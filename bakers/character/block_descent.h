@@ -1,6 +1,6 @@
-// Block coordinate descent, the fit of Le et al. 2019 (slides 25 to 33). It alternates between two blocks.
-// The first runs L-BFGS over the non-linear layer with the linear layer cached. The second solves constrained
-// least squares over the linear layer.
+// Block coordinate descent, the fit of Le et al. 2019 (slides 25 to 33). It alternates between two steps. The
+// first step runs L-BFGS over the non-linear layer, with the linear layer cached. The second step solves a
+// constrained least-squares problem for the linear layer.
 #pragma once
 
 #include <Eigen/Dense>
@@ -15,9 +15,9 @@ namespace nook::bake {
 // form contain the linear layer (Le et al. 2019, slides 55 to 57). Block coordinate descent minimises the
 // objective over the non-linear layer.
 
-// E = sum over poses of shadow^T A shadow - 2 B_t^T shadow + constant, divided by poses * vertices, with
-// A = sum_i w_i alpha_i alpha_i^T and B_t = sum_i w_i alpha_i (1 - beta_i - target_ti). The paper prints + 2
-// for the linear term, but from the paper's own definition of B it must be - 2.
+// E = sum over poses of shadow^T A shadow - 2 B_t^T shadow + constant, divided by poses * vertices, with A =
+// sum_i w_i alpha_i alpha_i^T and B_t = sum_i w_i alpha_i (1 - beta_i - target_ti). The paper prints + 2 for
+// the linear term, but - 2 follows from the paper's own definition of B.
 struct CachedObjective {
   using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
   Eigen::MatrixXf a;  // square matrix over the padded key points
@@ -29,8 +29,8 @@ CachedObjective cache_linear_layer(const FitState& state, const TrainingSet& set
 
 // Returns the error over the fitted poses, without clamping and weighted by set.vertex_weight. If `gradient`
 // is not null, resizes it and overwrites it with the gradient with respect to the non-linear parameters. The
-// cost is poses x key points^2. A sum over vertices would cost poses x vertices x entries, with a scattered
-// gather.
+// cost is poses x key points^2. A sum over vertices would cost poses x vertices x entries, and would gather
+// from scattered addresses.
 double evaluate_cached(const FitState& state, const TrainingSet& set, const CachedObjective& cache,
                        std::vector<double>* gradient);
 
@@ -39,8 +39,8 @@ struct LbfgsSettings {
   int history = 10;
 };
 
-// Runs one block, which lowers the cached objective over the non-linear parameters. Returns the final error.
-// It is never above the error at the start.
+// Runs one step over the non-linear parameters, which lowers the cached objective. Returns the final error.
+// It is never higher than the error at the start.
 double descend_non_linear(FitState& state, const TrainingSet& set, const LbfgsSettings& settings);
 
 }  // namespace nook::bake

@@ -69,7 +69,7 @@ Vec3 normal3(PoseRandom& random) {
 }
 
 void plan_arm(LimbPlan& plan, PoseRandom& random) {
-  // The elevation is measured from the downward axis, the azimuth from the front.
+  // The elevation is measured from straight down, the azimuth from the front.
   const float kind = random.unit();
   float elevation, azimuth;
   if (kind < 0.45f) {
@@ -98,7 +98,7 @@ namespace {
 LimbPlan plan_limbs(PoseRandom& random) {
   LimbPlan plan;
   plan_arm(plan, random);
-  // Legs stand, stride, crouch or sit, or kick back.
+  // Legs stand, stride, crouch or sit, or kick backwards.
   const float stance = random.unit();
   if (stance < 0.35f) {
     plan.hip_flexion = 10 * degree * random.normal();
@@ -119,7 +119,7 @@ LimbPlan plan_limbs(PoseRandom& random) {
   plan.hip_twist = 12 * degree * random.normal();
   plan.ankle = 15 * degree * random.normal();
   plan.toe = random.chance(0.3f) ? random.between(0, 40) * degree : 0;
-  // Fingers are open, relaxed or a fist.
+  // Fingers are stretched, relaxed or closed to a fist.
   const float grip = random.unit();
   plan.curl = grip < 0.25f   ? 0.08f * random.normal()
               : grip < 0.65f ? 0.35f + 0.15f * random.normal()

@@ -32,28 +32,27 @@ Vec3 normal3(PoseRandom& random);  // each coordinate is drawn from N(0, 1)
 
 // The motion of the limbs of one side in one pose; angles in radians.
 struct LimbPlan {
-  Vec3 arm_direction;  // of the upper arm, in the axes of the body frame (left, up, forward); mirrored for
-                       // the right side
+  Vec3 arm_direction;  // direction of the upper arm in the axes of the body frame (left, up, forward);
+                       // mirrored for the right side
   float arm_twist, elbow, hip_flexion, hip_abduction, hip_twist, knee, ankle, toe, curl, thumb;
-  Vec3 elbow_lean;  // random part of the direction to which the elbow bends
+  Vec3 elbow_lean;  // random part of the direction in which the elbow bends
   Vec3 clavicle, hand;
 };
 
 struct BodyPlan {
   LimbPlan limb[2];          // left, right
-  float bend, lean, twist;   // of the whole spine, radians
-  float shoulder_share = 1;  // share of an arm's swing that the clavicle makes, if the clavicle carries the
-                             // arm (auto_poses.cpp)
+  float bend, lean, twist;   // angles of the whole spine, radians
+  float shoulder_share = 1;  // the clavicle's share of an arm's swing, if it carries the arm (auto_poses.cpp)
   Vec3 neck;
   // A pose from motion capture, and the parts of the body that use it instead of the plan above.
   PriorPose motion;
   bool trunk_of_motion = false, arms_of_motion = false, legs_of_motion = false;
 };
 
-// Draws a new action for an arm: hanging, reaching forwards, raised to the side or overhead.
+// Draws what an arm does: it hangs, reaches forwards, or is raised to the side or overhead.
 void plan_arm(LimbPlan& plan, PoseRandom& random);
 
-// In the returned plan, no part uses motion capture.
+// No part of the returned plan uses motion capture.
 BodyPlan plan_body(PoseRandom& random);
 
 }  // namespace nook::bake

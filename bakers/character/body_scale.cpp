@@ -21,8 +21,7 @@ float scale_to_person(const SkinnedMesh& mesh) {
   }
   const float extent = std::max({high.x - low.x, high.y - low.y, high.z - low.z});
   if (!(extent > 0)) return 1;
-  constexpr float most =
-      40;  // limits the exponent, so that no float overflows; any unit of length needs far less
+  constexpr float most = 40;  // prevents overflow of floats; no unit of length needs as much
   return std::exp2(std::clamp(std::round(std::log2(person_m / extent)), -most, most));
 }
 

@@ -36,7 +36,7 @@ std::vector<Point> points_round(Vec3 centre, float radius, std::size_t count, st
     p.position = centre + distance * sphere_direction(u, v);
     const float s = random.unit(), t = random.unit();
     p.normal = sphere_direction(s, t);
-    // Turns normals that face away from the body, because points with such normals have little occlusion.
+    // Flips normals that face away from the body, because points with such normals have little occlusion.
     if (dot(p.normal, centre - p.position) < 0) p.normal = -p.normal;
   }
   return points;
@@ -66,7 +66,7 @@ std::vector<Point> fit_points(std::span<const Vec3> position, std::span<const Ve
   return points;
 }
 
-// Inverts solid_depth: returns the sum over spheres for which solid_depth is `depth`.
+// Inverse of solid_depth: returns the sum over spheres that gives a solid depth of `depth`.
 double sum_of_solid_depth(double depth) {
   constexpr double c = NOOK_SOLID_DEPTH;
   return (std::sqrt(1 + 4 * c * depth) - 1) / (2 * c);
@@ -110,7 +110,7 @@ void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::spa
             (transform_point(pose[sphere.bone], sphere.centre) - points[i].position) * inverse_radius;
         row[Eigen::Index(h)] = double(form_factor_fast(dot(d, points[i].normal), dot(d, d)));
       }
-      // Points inside the body are fully occluded. They carry no information about the occlusion outside.
+      // Skips points inside the body. They are fully occluded and tell nothing about the occlusion outside.
       const double occlusion = 1 - double(ao[i]);
       if (occlusion > 0.97) continue;
       const double depth = sum_of_solid_depth(-std::log1p(-occlusion));

@@ -21,9 +21,9 @@ struct CasterFitSettings {
 
 // Sets caster_weight (>= 0) of every sphere to the non-negative least-squares solution of
 //   solid_depth(sum over spheres of caster_weight * form factor) = -log(1 - traced occlusion)
-// at points outside the body. Relative errors have the same weight near and far. Overlapping spheres share
-// the occlusion of the space that they cover, so that one character does not darken twice. The optical depths
-// of several casters are added.
+// at points outside the body. Relative errors count the same near and far. Spheres of one body that overlap
+// share the occlusion of the space that they cover, so that one character does not darken a point twice. The
+// optical depths of different casters are added.
 void fit_caster_weights(CharacterModel& model, const SkinnedMesh& mesh, std::span<const Pose> poses,
                         const CasterFitSettings& settings,
                         const std::function<bool(std::size_t, std::size_t)>& progress = {});

@@ -77,8 +77,8 @@ std::size_t hold_out(std::vector<Pose>& poses) {
 // With this many rays, the noise is far below the error of any fit.
 constexpr std::uint32_t precise_rays = 512;
 
-// Picks fitted poses at even intervals and traces them again with many rays. Picks so many poses that this
-// takes at most a quarter of the fit's rays, but at least 4 and at most 24.
+// Picks fitted poses at even intervals and traces them again with many rays. Picks 4 to 24 poses. Within this
+// range, the traces take at most a quarter of the fit's rays.
 TrainingSet precise_share(const SkinnedMesh& mesh, const TrainingSet& set, const StandIns& stand_ins,
                           const BakeSettings& settings, const Progress& progress) {
   const std::size_t affordable = set.fitted() * settings.rays / (4 * precise_rays);
@@ -101,8 +101,8 @@ std::vector<float> vertex_weights(std::span<const float> area, FitMethod fit) {
   return weight;
 }
 
-// Settings for non-negative least squares over all candidates of a vertex. No key points are kept for the
-// sake of other casters (anchors), and entries are kept even if they gain little.
+// Settings for non-negative least squares over all candidates of a vertex. There are no anchors for other
+// casters, and entries are kept even if they lower the error only a little.
 LinearFitSettings plain_linear_fit(std::size_t entries) {
   LinearFitSettings plain;
   plain.entries = entries;
@@ -168,14 +168,14 @@ class Fit {
   throw Failure(NOOK_ERROR_CANCELLED, "cancelled while fitting");
 }
 
-// Runs mini-batches in rounds. Between rounds, the key points of each vertex are chosen again.
+// Runs mini-batches in rounds. Chooses the key points of each vertex again between rounds.
 void fit_by_mini_batches(Fit& fit, const TrainingSet& set, const BakeSettings& settings, BakeReport& report,
                          const BakeProgress& progress) {
   constexpr std::size_t rounds = 3;
   std::size_t done = 0;
   for (std::size_t r = 0; r < rounds; ++r) {
     MiniBatchSettings batch;
-    // The last round is the longest. It only refines the model, because the key points are chosen before it.
+    // The last round is the longest. It only refines the model: it does not choose key points.
     batch.steps = r + 1 < rounds ? settings.steps / 4 : settings.steps - done;
     batch.seed = settings.seed + r;
     batch.final_rate = r + 1 < rounds ? 0.3f : 0.01f;
@@ -215,7 +215,7 @@ void fit_both_layers(Fit& fit, const TrainingSet& set, const BakeSettings& setti
 }
 
 // Returns the exponent whose short fit has the lowest error on held-out poses. A coarse grid of exponents is
-// sufficient, because both layers adapt to the exponent, so that the error changes little near its minimum.
+// enough: both layers adapt to the exponent, so the error changes little near its minimum.
 float learned_gamma(const TrainingSet& set, const std::vector<float>& area, const BakeSettings& settings,
                     const Candidates& candidates, const FitState& initial, const BakeProgress& progress) {
   BakeSettings brief = settings;
@@ -312,7 +312,7 @@ Start initialise(const SkinnedMesh& mesh, const Surface& surface, std::span<cons
   const std::vector<InitialSphere> spheres = initial_spheres(mesh, weight, settings.spheres);
   Start start;
   // In the paper, a vertex uses the few key points that are nearest to it (slide 23). With more candidates,
-  // the greedy choice finds better ones.
+  // the greedy choice finds better key points.
   const std::size_t nearest = settings.fit == FitMethod::paper ? settings.entries : 40;
   start.candidates.count = std::min(nearest, key_points.size());
   NearKeyPoints near = nearest_key_points(mesh, feature_normal, key_points, start.candidates.count);

@@ -1,4 +1,4 @@
-// Baking a character model: poses -> ray-traced targets -> initialisation -> fit -> CharacterModel.
+// Bakes a character model: poses -> ray-traced targets -> initialisation -> fit -> CharacterModel.
 #pragma once
 
 #include <cstdint>
@@ -29,10 +29,10 @@ struct BakeSettings {
   std::uint64_t seed = 1;
   Kernel kernel;
   // Initial saturation of each key point, up to max_saturation (model.h). The fit changes it. If it is 0, no
-  // shadow saturates. Saturation is not used with FitMethod::paper. It is also not used if gamma is learned
-  // or differs from 1, because gamma has the same purpose.
+  // shadow saturates. FitMethod::paper does not use saturation. A fit whose gamma is learned or differs from
+  // 1 does not use saturation either, because gamma has the same purpose.
   float saturation = 0.5f;
-  bool learn_gamma = false;  // chooses the kernel.gamma with the lowest held-out error in short fits
+  bool learn_gamma = false;  // takes the kernel.gamma with the lowest held-out error in short fits
   FitMethod fit = FitMethod::nook;
 
   float used_saturation() const {
@@ -42,8 +42,8 @@ struct BakeSettings {
 
 enum class BakeStage : std::uint8_t { raytrace, initialise, fit, casters };
 
-// `done` and `total` count poses or steps of the stage. Return false to cancel. Called from worker threads,
-// one call at a time.
+// `done` and `total` count poses or steps of the stage. Return false to cancel. Worker threads call the
+// function, but never two at the same time.
 using BakeProgress = std::function<bool(BakeStage stage, std::size_t done, std::size_t total)>;
 
 struct CurvePoint {
@@ -54,11 +54,11 @@ struct CurvePoint {
 struct BakeReport {
   double seconds_raytrace = 0, seconds_fit = 0;
   std::size_t iterations = 0, train_poses = 0;
-  // The errors are over all vertices, with clamped predictions. mse_initial is before the fit, mse_train
-  // after it. Both use some of the fitted poses, traced again with many rays:
+  // The errors are over all vertices, with clamped predictions. mse_initial is measured before the fit,
+  // mse_train after it, both on some of the fitted poses, traced again with many rays.
   double mse_initial = 0, mse_train = 0;
-  double noise_floor_mse = 0;  // noise floor of these rays
-  // The error on the held-out poses, including the noise from their few rays. It decides when the fit stops:
+  double noise_floor_mse = 0;  // what the noise of these rays adds to both errors
+  // The error on the held-out poses, including the noise from their few rays. It decides when the fit stops.
   double mse_held_out = 0;
   double mse_held_out_file = 0;  // the same error after the model is quantised for its file
   double noise_floor_held_out_mse = 0;

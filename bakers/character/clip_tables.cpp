@@ -47,8 +47,7 @@ Eigen::MatrixXf orthonormal(const Eigen::MatrixXf& columns) {
 }  // namespace
 
 LowRank factorise(const Eigen::MatrixXf& values, std::size_t count, std::uint64_t seed) {
-  // The iteration uses more vectors than there are kept modes, so that the last kept modes converge in these
-  // rounds.
+  // The iteration uses more vectors than it keeps, so that the last kept modes converge in these rounds.
   constexpr Eigen::Index spare = 16;
   constexpr int rounds = 3;
   const Eigen::Index smaller = std::min(values.rows(), values.cols());
@@ -147,10 +146,10 @@ Eigen::MatrixXf value_of(const FrameTable<Number>& table, std::size_t frames) {
 }
 
 // For each bone, returns the mean position of its points, and a radius. The radius is the rms distance of the
-// points from the mean, divided by sqrt(3). If the bone's rotation has an error, a point at the radius moves
-// as far as the bone's points move on average.
+// points from the mean, divided by sqrt(3). An error of the bone's rotation moves a point at this radius as
+// far as it moves the bone's points on average.
 std::vector<BoneSpan> bone_spans(const SkinnedMesh& mesh) {
-  // Metres. Used for bones without vertices, and if all vertices of a bone are at one position.
+  // In metres, for bones without vertices and for bones whose vertices are all at one position.
   constexpr float least_radius = 0.02f;
   const std::size_t bones = mesh.bones.size();
   std::vector<double> weight(bones, 0), square(bones, 0);
@@ -205,8 +204,8 @@ Eigen::MatrixXf ao_values(const AoTargets& targets) {
   return values;
 }
 
-// Where a target is black or fully open and the product exceeds that limit, replaces the target by the
-// product. The runtime clamps the result, so the excess is not an error.
+// Where a target is black or fully open and the product lies beyond it, replaces the target by the product.
+// The runtime clamps the result, so the product has no error there.
 void relax(const Eigen::MatrixXf& values, const Eigen::MatrixXf& product, Eigen::MatrixXf& relaxed) {
   tbb::parallel_for(Eigen::Index(0), values.cols(), [&](Eigen::Index f) {
     for (Eigen::Index i = 0; i < values.rows(); ++i) {
@@ -224,15 +223,15 @@ double clamped_mse(const Eigen::MatrixXf& values, const Eigen::MatrixXf& product
   return sum / double(values.size());
 }
 
-// Estimates the mse of the product against the values without their noise. A fit of `count` modes also fits a
-// part of the noise, in proportion to the number of its free parameters.
+// Estimates the mse of the product against the noise-free values. A fit of `count` modes also fits a part of
+// the noise, in proportion to the number of its free parameters.
 double true_mse(double residual_mse, double noise_mse, std::size_t count, double rows, double columns) {
   const double k = double(count), taken = std::min(k * (rows + columns - k) / (rows * columns), 1.0);
   return std::max(residual_mse - noise_mse * (1 - 2 * taken), 0.0);
 }
 
-// Returns the smallest multiple of `step` modes with an error of at most `max_mse`. If there is none, returns
-// the number of modes with the smallest error, because more modes would only fit noise.
+// Returns the smallest multiple of `step` modes with an error of at most `max_mse`. If no number of modes
+// reaches max_mse, returns the one with the smallest error, because more modes would only fit noise.
 std::size_t modes_for(const LowRank& low, double size, double max_mse, double noise_mse, std::size_t step,
                       double rows, double columns, std::vector<double>* curve) {
   double left = low.total;
@@ -252,13 +251,14 @@ std::size_t modes_for(const LowRank& low, double size, double max_mse, double no
   return found ? found : best;
 }
 
-// Returns how many modes fit into a byte budget. A mode has a scale, a weight per frame and a value per row.
+// Returns how many modes fit into a number of bytes. A mode has a scale, a weight per frame and a value per
+// row.
 std::size_t affordable(double bytes, double frames, double rows, double number_bytes) {
   const double each = 4 + 2 * frames + number_bytes * rows;
   return std::size_t(std::max(bytes / each, 0.0));
 }
 
-// Adds zero modes up to a multiple of four.
+// Adds modes of zeros up to a multiple of four.
 void pad_modes(FrameTable<std::int8_t>& table, std::size_t frames) {
   const std::uint32_t padded = (table.modes + 3) / 4 * 4;
   if (padded == table.modes) return;
@@ -302,7 +302,8 @@ ClipSet make_clip_set(const SkinnedMesh& mesh, const CharacterModel& model, cons
   const std::vector<BoneSpan> spans = bone_spans(mesh);
   set.bones.assign(spans.begin(), spans.end());
   const double rows = double(spans.size() * pose_rows_per_bone);
-  // Subtracts the bytes of the header, names, bones and container. Poses get at most half of the rest.
+  // Subtracts the bytes of the header, names, bones and container. The pose table gets at most half of the
+  // rest.
   double budget = settings.max_bytes * vertices * count - 400 - 16 * double(spans.size());
   for (const ClipRange& clip : frames.clips) budget -= double(clip.name.size() + 8);
   const Eigen::MatrixXf poses = pose_values(spans, frames.poses);
@@ -323,8 +324,8 @@ ClipSet make_clip_set(const SkinnedMesh& mesh, const CharacterModel& model, cons
   const std::size_t modes =
       std::min(most, modes_for(low, vertices * count, settings.max_error * settings.max_error, noise_mse, 4,
                                vertices, count, &report.error_of_modes));
-  // In each round, black vertices may become darker than black, so that the modes represent visible
-  // differences instead.
+  // In each round, targets of black vertices may fall below black, and targets of open vertices may rise
+  // above open. The modes then describe only visible differences.
   constexpr int relaxations = 3;
   Eigen::MatrixXf relaxed = values;
   for (int round = 0; round < relaxations; ++round) {

@@ -1,5 +1,5 @@
-// Bakes clips of a character: takes the frames of each clip and their ray-traced AO, and makes the tables
-// that store poses and AO.
+// Bakes clips of a character: makes tables of poses and AO from the frames of each clip and their ray-traced
+// AO.
 #pragma once
 
 #include <Eigen/Dense>
@@ -14,15 +14,14 @@
 
 namespace nook::bake {
 
-// Approximates a large matrix by a product of few modes and weights.
+// Approximates a large matrix by a product of a few modes and their weights.
 
 // values ~ modes * weights.transpose(). The modes are orthonormal. The norm of a mode's weights is the mode's
 // singular value. Modes are sorted by descending singular value.
 struct LowRank {
   Eigen::MatrixXf modes;        // rows x count
   Eigen::MatrixXf weights;      // columns x count
-  std::vector<double> removed;  // the squared singular value of each mode, which is how much the mode lowers
-                                // the squared error
+  std::vector<double> removed;  // how much each mode lowers the squared error (its squared singular value)
   double total = 0;             // the sum of squares of all values
 };
 
@@ -44,16 +43,16 @@ struct ClipFrames {
 };
 
 // A clip gets about duration * frames_per_second + 1 frames. The first frame is at the clip's start, the last
-// one at its end. A clip without duration has one frame.
+// frame at its end. A clip without duration has one frame.
 ClipFrames clip_frames(const ImportedCharacter& character, std::span<const std::size_t> clips,
                        double frames_per_second);
 
 struct ClipTableSettings {
   std::uint64_t seed = 1;
-  // Limit of the AO error: root mean square over vertices and frames, without the noise of the targets.
+  // Limit of the AO error: root mean square over vertices and frames, without the noise of the ray tracing.
   double max_error = 0.015;
-  // Limit, in metres, of the position error of the points that a bone carries: root mean square over bones
-  // and frames.
+  // Limit, in metres, of the position error of the points that a bone moves: root mean square over bones and
+  // frames.
   double max_pose_error = 0.004;
   // Limit of the file size in bytes per frame and welded vertex. This limit takes precedence over the error
   // limits.
@@ -67,8 +66,8 @@ struct ClipTableReport {
   std::vector<double> error_of_modes;  // the error with the first 4, 8, 12, ... modes, before rounding
 };
 
-// Makes the tables from traced frames. noise_mse is the expected squared error of the targets. The model
-// gives the order of vertices and bones.
+// Makes the tables from traced frames. noise_mse is the expected squared error of the targets. The tables use
+// the model's order of vertices and bones.
 ClipSet make_clip_set(const SkinnedMesh& mesh, const CharacterModel& model, const ClipFrames& frames,
                       const AoTargets& targets, double noise_mse, const ClipTableSettings& settings,
                       ClipTableReport& report);

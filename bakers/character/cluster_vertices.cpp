@@ -14,7 +14,7 @@ struct BoneWeight {
   float weight;
 };
 
-// The mean of a cluster in feature space; skin weights are sparse and sorted by bone.
+// The mean of a cluster in feature space. Skin weights are sparse and sorted by bone.
 struct Cluster {
   float size = 0;
   Vec3 position, normal;
@@ -110,7 +110,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> near_pairs(const SkinnedMes
   return pairs;
 }
 
-// A graph of clusters. Neighbouring clusters are merged, the cheapest pair first.
+// A graph of clusters. It repeatedly merges the two neighbours that cost least.
 class ClusterGraph {
  public:
   // At the start, each vertex is a cluster of its own. Vertices that share an edge or are near to each other

@@ -11,10 +11,10 @@ namespace nook::bake {
 namespace {
 
 // The smallest weight that a vertex keeps. It lets other casters darken vertices that have no self-shadow.
-// The self-shadow with this weight is below one step of an 8-bit image.
+// The self-shadow from this weight is below one step of an 8-bit image.
 constexpr float least_alpha = 1e-3f;
 
-// Entries below this are dropped, unless they are anchors. Each entry takes two bytes, and dropping it
+// Entries below this weight are dropped, unless they are anchors. Dropping an entry saves two bytes and
 // changes AO by less than 1e-3.
 constexpr float dropped_alpha = 4e-3f;
 
@@ -34,8 +34,8 @@ KeyPoint key_point_of(const FitState& state, std::size_t k) {
   return p;
 }
 
-// Returns the key point, among those that a vertex uses, whose surface position and normal are nearest to the
-// given ones.
+// Among the key points that a vertex uses, returns the one whose surface position and normal are nearest to
+// the given ones.
 std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, Vec3 position, Vec3 normal) {
   constexpr float metres_of_a_normal = 0.1f;
   std::size_t nearest = 0;
@@ -53,16 +53,16 @@ std::size_t nearest_key_point(const CharacterModel& model, std::size_t vertex, V
   return nearest;
 }
 
-// Sets the surface position and normal of each key point, at which other casters darken it. K-means splits
-// the vertices among the key points that they use, and each key point gets the mean of its vertices. The mean
-// of all vertices that use a key point would lie inside the body and have a blurred normal.
+// Sets the surface position and normal at which other casters darken each key point. K-means assigns each
+// vertex to one of the key points that it uses, and each key point gets the mean of its vertices. The mean
+// over all vertices that use a key point would lie inside the body and have a blurred normal.
 void set_surface_frames(CharacterModel& model, const SkinnedMesh& mesh, std::span<const float> vertex_area,
                         std::span<const Vec3> vertex_normal) {
   for (KeyPoint& p : model.key_points) {
     p.surface_position = p.position;
     p.surface_normal = p.normal;
   }
-  constexpr int rounds = 6;  // the error against ray tracing does not change after 4
+  constexpr int rounds = 6;  // the error against ray tracing no longer changes after 4
   for (int r = 0; r < rounds; ++r) {
     std::vector<float> total(model.key_points.size(), 0.0f);
     std::vector<Vec3> position(total.size()), normal(total.size());
@@ -204,11 +204,11 @@ using Cell = std::array<std::int64_t, 3>;
 
 struct CellVertices {
   std::uint32_t first = 0;
-  // True if some vertex of the cell has another position, or other weights, than the first vertex.
+  // True if a vertex of the cell has another position, or other weights, than the cell's first vertex.
   bool has_other_places = false, has_other_weights = false;
 };
 
-// Whether the vertices around a vertex differ from it.
+// Tells whether the vertices near a vertex differ from it.
 struct Neighbourhood {
   Cell cell{};
   bool has_other_places = false, has_other_weights = false;
@@ -248,8 +248,8 @@ std::vector<Neighbourhood> neighbourhoods(const SkinnedMesh& mesh, double share)
   return out;
 }
 
-// Marks each vertex that has a vertex with other weights within the tolerance of nook_model_match_vertices.
-// The match may confuse these two vertices, but they move apart in a pose.
+// Marks each vertex with a neighbour that has other weights and is within the tolerance of
+// nook_model_match_vertices. The match may confuse these two vertices, although they move apart in a pose.
 std::vector<bool> ambiguous_vertices(const SkinnedMesh& mesh) {
   std::vector<bool> out;
   for (const Neighbourhood& n : neighbourhoods(mesh, 1e-4)) out.push_back(n.has_other_weights);
@@ -274,8 +274,8 @@ std::vector<std::uint32_t> first_file_vertices(const SkinnedMesh& mesh) {
 }
 
 // Adds the vertices that have other vertices close to them, in the order of their grid cells. Close means in
-// the same cell or in an adjacent one. Other vertices are at least two steps of a stored rest position away,
-// so the stored positions alone distinguish them.
+// the same cell or in an adjacent one. A vertex without close neighbours is at least two steps of a stored
+// rest position away from all others, so its stored position alone identifies it.
 void add_close_vertices(const ImportedCharacter& character, BindData& out) {
   const SkinnedMesh& mesh = character.mesh;
   const std::vector<Neighbourhood> around = neighbourhoods(mesh, 2.0 / 65535);
@@ -307,7 +307,7 @@ std::vector<std::vector<std::uint32_t>> vertices_of_bones(const SkinnedMesh& mes
   return out;
 }
 
-// Returns the vertex that determines its bone best. It has a large weight and is far from `known`.
+// Returns the vertex that tells most about its bone's motion. It has a large weight and is far from `known`.
 std::uint32_t clearest(const SkinnedMesh& mesh, const std::vector<std::uint32_t>& vertices, Vec3 known) {
   const auto clarity = [&](std::uint32_t v) {
     const float weight = mesh.weights[v].weight[0];

@@ -23,8 +23,8 @@ FitError measure_fit(const FitState& state, const TrainingSet& set, std::size_t 
                      std::span<const float> vertex_area) {
   const std::size_t padded = state.structure.padded_count(), entries = state.linear.entries;
   const std::vector<float> shadows = shadows_of(state, std::span(set.poses).subspan(first, last - first));
-  // Each pose has a partial sum. The sums are added in order, which gives the same bits with any number of
-  // threads.
+  // Each pose has a partial sum. The partial sums are added in a fixed order, so that the number of threads
+  // does not change the bits.
   std::vector<FitError> partial(last - first);
   tbb::parallel_for(std::size_t(0), last - first, [&](std::size_t t) {
     const float* shadow = &shadows[t * padded];

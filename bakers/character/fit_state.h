@@ -12,7 +12,7 @@
 
 namespace nook::bake {
 
-// Poses with their ray-traced AO. The last `held_out` poses are not fitted. They decide when a fit stops.
+// Poses with their ray-traced AO. The last `held_out` poses are not fitted. They decide when the fit stops.
 struct TrainingSet {
   std::vector<Pose> poses;
   AoTargets targets;                 // poses x welded vertices

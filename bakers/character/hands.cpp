@@ -23,7 +23,7 @@ struct Hand {
   std::vector<std::size_t> members;   // bones of fingers and thumb
 };
 
-// Returns the bones of the palm that `wrist` belongs to: the bone itself and its siblings with the same role.
+// Returns the bones of the palm that `wrist` belongs to: `wrist` itself and its siblings with the same role.
 std::vector<std::size_t> palm_bones(std::span<const Joint> joints, const BodyTree& tree, std::size_t wrist) {
   std::vector<std::size_t> bones{wrist};
   for (std::size_t b = 0; b < joints.size(); ++b)
@@ -57,8 +57,8 @@ Hand hand_of(const Rig& rig, std::size_t wrist) {
   return hand;
 }
 
-// Returns the direction across the knuckles, from the little finger to the index finger. The index finger is
-// at the end of the row of knuckles that is nearer to the thumb.
+// Returns the direction across the knuckles, from the little finger to the index finger. The index finger's
+// knuckle is the outer knuckle that is nearer to the thumb.
 Vec3 across_knuckles(const Rig& rig, const Hand& hand, Vec3 up) {
   Vec3 across;
   for (const std::size_t a : hand.knuckles)
@@ -71,9 +71,9 @@ Vec3 across_knuckles(const Rig& rig, const Hand& hand, Vec3 up) {
   return normalised(across - dot(across, hand.along) * hand.along);
 }
 
-// Returns the axis across the knuckles, turned so that fingers curl towards the palm. If the fingers are
-// curled at rest, their curl shows the palm's side most reliably. Otherwise, the palm is on the side of the
-// thumb.
+// Returns the axis across the knuckles, with the sign that makes fingers curl towards the palm. If the
+// fingers are curled at rest, their curl shows most reliably where the palm is. Otherwise, the palm is on the
+// thumb's side.
 Vec3 finger_axis(const Rig& rig, const Hand& hand, Vec3 across) {
   constexpr float least_curl = 0.05f;  // sine of the angle between neighbouring joints, mean over fingers
   Vec3 bend;
@@ -148,8 +148,8 @@ Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl) {
 
 std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> joints,
                                 const BodyTree& tree) {
-  // Share of the body's diagonal. A finger of a person with stretched arms has 4 %, and a finger of a cartoon
-  // hand has 8 %.
+  // Share of the body's diagonal. On a person with stretched arms, a finger has a share of 4 %. On a cartoon
+  // hand, it has 8 %.
   constexpr float longest_finger = 0.15f;
   std::vector<float> reach(mesh.bones.size(), 0);  // distance from each bone's joint to its farthest skin
   Vec3 low, high;
@@ -166,7 +166,7 @@ std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> 
     const std::uint32_t b = tree.order[i];
     if (joints[b].role != JointRole::finger && joints[b].role != JointRole::thumb) continue;
     if (reach[b] > longest_finger * length(high - low)) laden[b] = 1;
-    // If a joint of a finger carries an object, the finger's joints above it carry the object too.
+    // If a joint of a finger carries an object, the joints between it and the palm carry the object too.
     const std::int32_t p = tree.parent[b];
     if (laden[b] && p >= 0) laden[std::size_t(p)] = joints[std::size_t(p)].role == joints[b].role;
   }

@@ -15,8 +15,8 @@ struct BodyPoint {
   Vec3 point;
 };
 
-// Returns true for palm bones if several of them hang side by side on one forearm, such as one for each
-// finger. They have no common wrist to turn about. They would separate if each turned about its own joint.
+// Returns true for a palm bone if several palm bones hang side by side on one forearm, for example one per
+// finger. They have no common wrist. If each turned about its own joint, they would separate.
 std::vector<char> parted_palms(std::span<const Joint> joints, const BodyTree& tree);
 
 // For the left and the right hand, returns the centre of the knuckles, or the wrist if the hand has no
@@ -36,13 +36,13 @@ HandFrame hand_frame(const SkinnedMesh& mesh, std::span<const Joint> joints, con
 // Returns the turn of a finger's joint. `curl` is 0 for a stretched finger and 1 for a fist.
 Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl);
 
-// Returns true for fingers and thumbs that hold an object. For example, a rig may weight a club to a finger.
-// The club reaches much farther than a finger, and would swing with the finger. Automatic poses do not move
-// such fingers.
+// Returns true for fingers and thumbs that carry an object. For example, a club may be skinned to a finger.
+// It reaches much farther than a finger and would swing with the finger, so automatic poses do not move such
+// fingers.
 std::vector<char> laden_fingers(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree);
 
-// Returns the curl axis of each joint of fingers and thumbs, with unit length in rest space; zero for other
-// joints. Fingers curl about the axis across them, towards the palm, which is the side that the thumb is on.
+// Returns the curl axis of each joint of fingers and thumbs, as a unit vector in rest space; zero for other
+// joints. Fingers curl about the axis across the knuckles, towards the palm.
 std::vector<Vec3> curl_axes(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                             Vec3 up);
 

@@ -11,9 +11,9 @@
 namespace nook::bake {
 namespace {
 
-// The vertices of a bone may lie in a plane or on a line. Spheres as small as the thickness would then cast
-// no shadow. So the radius is at least these shares of the breadth and the length. The shares are so small
-// that they do not change the spheres of limbs, ears and fingers.
+// The vertices of a bone may lie in a plane or on a line. A sphere with the thickness as its radius would
+// then cast no shadow. So the radius is at least these shares of the breadth and the length. The shares are
+// too small to change the spheres of limbs, ears and fingers.
 float least_radius(const float (&spread)[3]) {
   return std::max({0.05f * spread[1], 0.02f * spread[2], 1e-4f});
 }
@@ -75,8 +75,8 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
     return shapes[a].area != shapes[b].area ? shapes[a].area > shapes[b].area : a < b;
   });
   if (order.size() > sphere_count) order.resize(sphere_count);
-  // The longer a bone is relative to its thickness, the more spheres it gets. The wish is limited, because a
-  // flat bone (least spread near 0) would otherwise get very many small spheres.
+  // The longer a bone is relative to its thickness, the more spheres it should get. The number is limited,
+  // because a flat bone (least spread near 0) would otherwise get very many small spheres.
   std::vector<double> wish(order.size());
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BoneShape& s = shapes[order[i]];
@@ -88,13 +88,13 @@ std::vector<InitialSphere> initial_spheres(const SkinnedMesh& mesh, std::span<co
   double carried = 0;
   for (std::size_t i = 0; i < order.size(); ++i) {
     const BoneShape& s = shapes[order[i]];
-    // The rounding error is carried to the next bone, so that the total is exact.
+    // The rounding error carries over to the next bone, so that the total is exact.
     carried += total > double(order.size()) ? extra * (wish[i] - 1) / (total - double(order.size())) : 0;
     const auto more = std::size_t(std::floor(carried + 1e-9));
     carried -= double(more);
     const std::size_t count = 1 + more;
     const float radius = std::max(s.spread[0], least_radius(s.spread));
-    // A uniform density over a length l has the standard deviation l / sqrt(12).
+    // A uniform density over a length l has a standard deviation of l / sqrt(12).
     const float half = 0.5f * std::sqrt(12.0f) * s.spread[2] * (1 - 1 / float(count + 1));
     for (std::size_t j = 0; j < count; ++j) {
       const float at = count == 1 ? 0 : half * (2 * float(j) / float(count - 1) - 1);
@@ -172,8 +172,7 @@ FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> sphe
 
 std::vector<float> placement_weights(std::span<const float> vertex_weight, const AoTargets& targets,
                                      std::size_t poses) {
-  constexpr double least_share = 0.05;  // share of the mean variance, so that every part of a body has key
-                                        // points
+  constexpr double least_share = 0.05;  // of the mean variance; gives every part of a body key points
   const std::size_t vertices = vertex_weight.size();
   std::vector<double> sum(vertices, 0.0), squares(vertices, 0.0);
   for (std::size_t t = 0; t < poses; ++t) {
@@ -200,8 +199,8 @@ NearKeyPoints nearest_key_points(const SkinnedMesh& mesh, std::span<const Vec3> 
   count = std::min(count, key_points.size());
   NearKeyPoints nearest{std::vector<std::uint16_t>(mesh.vertex_count() * count),
                         std::vector<float>(mesh.vertex_count() * count)};
-  // A normal that differs by 90 degrees counts like `normal_metres` of distance, and entirely different bones
-  // count like `weight_metres`. This is for a body about 1.7 m tall.
+  // A normal that differs by 90 degrees counts like `normal_metres` of distance, and weights without a common
+  // bone count like `weight_metres`. The values are for a body about 1.7 m tall.
   constexpr float normal_metres = 0.04f, weight_metres = 0.15f;
   constexpr std::size_t block = 256;
   tbb::parallel_for(std::size_t(0), (mesh.vertex_count() + block - 1) / block, [&](std::size_t b) {
@@ -240,8 +239,8 @@ std::vector<Vec3> centre_of_rotation_normals(const SkinnedMesh& mesh, std::span<
   std::vector<float> squared(vertices);
   for (std::size_t i = 0; i < vertices; ++i)
     for (float w : mesh.weights[i].weight) squared[i] += w * w;
-  // The Gaussian depends on the distance between weight vectors, which is at most sqrt(2). This is its
-  // inverse squared width.
+  // The Gaussian depends on the distance between weight vectors, which is at most sqrt(2). This is the
+  // inverse of its squared width.
   constexpr float inverse_width2 = 1 / 0.1f;
   std::vector<Vec3> normal(vertices);
   constexpr std::size_t block = 64;

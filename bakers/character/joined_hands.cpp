@@ -43,7 +43,7 @@ Mat3x4 frame_turn(const Vec3 (&from)[3], const Vec3 (&to)[3]) {
   return r;
 }
 
-// Returns the angle by which a rotation turns about an axis, in radians.
+// Returns the angle in radians by which a rotation turns about an axis.
 float twist_about(const Mat3x4& turn, Vec3 axis) {
   const Vec3 v = turn_of(turn);
   const float angle = length(v);
@@ -59,13 +59,12 @@ struct JoinedHands::Grip {
   Vec3 handle;      // direction of the handle, same axes
   float apart[2];   // distance of the knuckles from the handle, towards the back of the hand
   float along[2];   // position of the knuckles along the handle
-  Vec3 miss[2];     // random error of a hand's position, because retargeted clips have such errors
+  Vec3 miss[2];     // random error of a hand's position, as in retargeted clips
   float thumb[2];   // 1: the hand's thumb side faces the handle's end; -1: it faces the start
   Vec3 aim[2];      // added to the direction of the fingers
-  Vec3 elbow[2];    // added to the direction to which elbows point
+  Vec3 elbow[2];    // added to the direction in which elbows point
   float curl[2];    // fingers: 0 stretched, 1 a fist
-  float pronation;  // when the hand turns about the forearm's axis, the share of this turn that the forearm
-                    // makes
+  float pronation;  // the forearm's share of the hand's turn about the forearm's axis
 };
 
 struct JoinedHands::ArmPose {
@@ -127,7 +126,8 @@ JoinedHands::Arm JoinedHands::find_arm(Side side) const {
 
 JoinedHands::Grip JoinedHands::draw(Random& random) const {
   Grip g{};
-  // Places range from the lap to above the head, and from the belly to the reach of stretched arms.
+  // The place lies between the lap and a point above the head, and between the belly and the reach of the
+  // arms.
   g.place = {0.25f * random.normal(), random.between(-0.9f, 0.5f), random.between(0.25f, 0.9f)};
   g.handle = normalised(normal3(random) + Vec3{0, 0.6f, 0});
   const float kind = random.unit();
@@ -141,13 +141,13 @@ JoinedHands::Grip JoinedHands::draw(Random& random) const {
     g.elbow[s] = 0.4f * normal3(random);
     g.curl[s] = 0.85f + 0.15f * random.normal();
   }
-  if (kind < 0.45f) {  // one hand around the other
+  if (kind < 0.45f) {  // one hand around the other hand
     g.apart[1 - inner] = random.between(0.5f, 1.1f);
     g.curl[1 - inner] = 0.65f + 0.2f * random.normal();
   } else if (kind < 0.8f) {  // one hand behind the other on a handle
     g.along[inner] += 0.5f * random.between(0.7f, 1.4f);
     g.along[1 - inner] -= 0.5f * random.between(0.7f, 1.4f);
-  } else {  // flat hands
+  } else {  // flat hands that face each other
     for (int s = 0; s < 2; ++s) {
       g.apart[s] = random.between(0.1f, 0.4f);
       g.curl[s] = 0.15f + 0.15f * random.normal();
@@ -209,7 +209,7 @@ JoinedHands::ArmPose JoinedHands::solve(const Pose& pose, const Grip& grip, int 
 void JoinedHands::close_fingers(const Arm& arm, float curl, std::vector<JointMotion>& motions,
                                 Random& random) const {
   const float thumb = random.unit();
-  // With this chance, the index finger is on a trigger or points.
+  // In this share of poses, the index finger is stretched: it points or is on a trigger.
   const bool stretched = random.chance(0.25f);
   const float index = random.between(-0.05f, 0.5f);
   for (const std::uint32_t b : arm.fingers) {

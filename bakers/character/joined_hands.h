@@ -1,5 +1,5 @@
-// Makes poses in which both hands hold one object or each other, such as a grip, a handle or a prayer. Most
-// uses of tools and weapons and many gestures look like this. Arms that are drawn independently never come so
+// Makes poses in which both hands hold one object or each other, for example in a grip or a prayer. Most uses
+// of tools and weapons and many gestures look like this. Arms that are drawn independently never come so
 // close to each other.
 #pragma once
 
@@ -21,8 +21,8 @@ class JoinedHands {
   // Returns false if the rig does not have two arms with hands and fingers.
   bool possible() const { return arms_[0].index_knuckle >= 0 && arms_[1].index_knuckle >= 0; }
 
-  // Draws a place in front of the trunk and moves both arms there. with_fingers closes the fingers as well.
-  // No other joints move. Call this only if possible() returns true.
+  // Picks a random place in front of the trunk and moves both hands there. If with_fingers is true, also
+  // closes the fingers. The other joints do not move. Call this only if possible() returns true.
   void join(std::vector<JointMotion>& motions, bool with_fingers, Random& random) const;
 
  private:
@@ -30,7 +30,7 @@ class JoinedHands {
     std::int32_t upper = -1, fore = -1, hand = -1;  // bones
     Vec3 shoulder, elbow, wrist;                    // joints at rest, metres
     HandFrame frame;
-    std::vector<std::uint32_t> fingers;  // and thumbs, without those that hold an object; parents first
+    std::vector<std::uint32_t> fingers;  // with thumbs, without those that hold an object; parents first
     std::int32_t index_knuckle = -1;     // the first joint of the finger beside the thumb
   };
   struct Grip;
@@ -47,7 +47,7 @@ class JoinedHands {
   BodyFrame frame_;
   std::vector<Vec3> curl_axis_;
   std::array<Arm, 2> arms_;  // left, right
-  std::int32_t chest_ = -1;  // the nearest spine above both arms; -1: none
+  std::int32_t chest_ = -1;  // the nearest bone above both arms in the hierarchy; -1: none
 };
 
 }  // namespace nook::bake

@@ -13,7 +13,7 @@ Vec3 row(const Mat3x4& a, int i) {
   return {a.m[4 * i], a.m[4 * i + 1], a.m[4 * i + 2]};
 }
 
-// Returns the edge of the cube that has the volume of the transformed unit cube.
+// Returns the edge length of a cube with the same volume as the transformed unit cube.
 float volume_scale(const Mat3x4& a) {
   return std::cbrt(std::fabs(dot(row(a, 0), cross(row(a, 1), row(a, 2)))));
 }

@@ -12,14 +12,14 @@ namespace nook::bake {
 
 // A joint's motion relative to its parent in the body's tree, in rest space.
 struct JointMotion {
-  Vec3 turn;   // about the joint's rest origin: axis times angle, radians
-  Vec3 shift;  // moves the joint's origin, metres
-  float scale =
-      1;  // about the same origin; replaces a non-uniform scale by the uniform one with the same volume
+  Vec3 turn;        // about the joint's rest origin: axis times angle, radians
+  Vec3 shift;       // moves the joint's origin, metres
+  float scale = 1;  // about the same origin; a non-uniform scale becomes the uniform scale of equal volume
 };
 
-// Returns the axis times the angle of the rotation nearest to the matrix's three rows, made orthonormal in
-// order. Computes the quaternion's largest component first (Shepperd 1978), so that half turns are exact.
+// Returns the rotation nearest to the matrix as axis times angle, in radians. The three rows are made
+// orthonormal one after the other. Computes the quaternion's largest component first (Shepperd 1978), so that
+// half turns are exact.
 Vec3 turn_of(const Mat3x4& matrix);
 
 std::vector<JointMotion> joint_motions(const SkinnedMesh& mesh, const BodyTree& tree, const Pose& pose);

@@ -21,8 +21,8 @@ constexpr std::size_t wished_poses = 60, least_of_clip = 4, most_poses = 240;
 // Rays per vertex, over all poses together. A standard bake fits to about ten times as many rays.
 constexpr std::size_t most_rays = 6000, least_rays = 2000;
 constexpr double visible_truth = double(hidden_below);
-// Squared error. A clip counts as worse than a static bake only if its squared error is larger by at least
-// this, which is one step of an 8-bit image.
+// A clip counts as worse than a static bake only if its squared error is larger by at least this value, which
+// is the square of one step of an 8-bit image.
 constexpr double least_excess = 1.0 / (255.0 * 255.0);
 constexpr double torn_limit = 5e-4;
 
@@ -91,8 +91,8 @@ JudgedPoses judged_poses(const ImportedCharacter& character, const Recipe& recip
 
 namespace {
 
-// Names for the part of the body that a vertex belongs to. One name comes from the role of the bone with the
-// largest weight, the other is the name of the vertex's mesh.
+// Two names for the part of the body that a vertex belongs to: the role of the bone with the vertex's largest
+// weight, and the name of the vertex's mesh.
 
 const char* part_of(JointRole role) {
   switch (role) {
@@ -154,7 +154,7 @@ std::vector<std::string> bones_without_role(const SkinnedMesh& mesh, std::span<c
   return names;
 }
 
-// Sums over all pairs of a vertex and a pose in which the vertex is visible.
+// Sums over all pairs of a vertex and a pose in which the vertex is visible (traced AO of at least 0.01).
 struct Sums {
   double model = 0, static_bake = 0, oracle = 0, weight = 0;
 
@@ -173,7 +173,8 @@ double truth_at(const AoTargets& targets, std::size_t pose, std::size_t vertex) 
   return double(targets.row(pose)[vertex]) * double(AoTargets::scale);
 }
 
-// The model's AO in the judged poses, and two independent ray-traced AOs (halves) of the same poses.
+// The model's AO in the judged poses, and two independent ray traces of the same poses, each with half of the
+// rays.
 struct Traced {
   AoTargets half[2];
   std::vector<float> ao;  // poses x vertices
@@ -202,8 +203,8 @@ std::vector<float> model_ao(const CharacterModel& model, std::span<const Pose> p
   return ao;
 }
 
-// Returns the sums of one vertex over some poses. The oracle predicts the mean AO of the vertex. Each half
-// has its own mean, so that their noise is independent.
+// Returns the sums of one vertex over some poses. The oracle predicts the mean AO of the vertex. Each half of
+// the rays has its own mean, so that the noise of both is independent.
 Sums sums_of(const Traced& traced, const CharacterModel& model, std::size_t v,
              const std::vector<std::size_t>& poses) {
   Sums sums;
@@ -363,7 +364,7 @@ std::string names_of(const std::vector<std::string>& names) {
   return names.size() > most ? text + " and " + std::to_string(names.size() - most) + " more" : text;
 }
 
-// Returns a mesh whose share of the error is much larger than its share of the area, for example a prop.
+// Returns a mesh, for example a prop, whose share of the error is much larger than its share of the area.
 // Returns null if there is no such mesh.
 const JudgedPart* outlying_mesh(const Judgement& j) {
   if (j.meshes.size() < 2) return nullptr;

@@ -1,5 +1,5 @@
-// Measures the error of a bake on poses that it did not fit, compared with static bakes, in total and per
-// part of the body.
+// Measures the error of a bake on poses that the bake did not fit, and compares it with static bakes, in
+// total and per part of the body.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +20,20 @@ struct JudgedPoses {
     other_clips,     // clips of the file that the bake did not fit
     between_frames,  // halfway between the fitted frames of the clips
     generated,       // automatic poses with another seed, because the file has no clip
-    turned,          // an object of one bone
-    recorded,        // every fourth of the poses that were passed for calibration
+    turned,          // turns of an object with one bone
+    recorded,        // every fourth recorded pose that was passed for calibration
   };
   Source source = Source::generated;
   std::vector<Pose> poses;
   std::vector<std::string> clips;  // names
-  std::vector<std::size_t> clip;   // of each pose, an index into clips; empty without clips
+  std::vector<std::size_t> clip;   // for each pose, an index into clips; empty without clips
 };
 JudgedPoses judged_poses(const ImportedCharacter& character, const Recipe& recipe);
 const char* text_of(JudgedPoses::Source source);
 
-// Mean squared errors over visible vertex-poses, which have a traced AO of at least 0.01. Each squared error
-// is the product of the errors against two independent halves of the rays, so it contains no noise of the
-// rays.
+// Mean squared errors over all pairs of a vertex and a pose with a traced AO of at least 0.01. Each squared
+// error is the product of the errors against two independent halves of the rays, so it does not contain the
+// rays' noise.
 struct JudgedErrors {
   double model = 0, static_bake = 0;
   double over_static() const { return static_bake > 0 ? model / static_bake : 0; }
@@ -49,14 +49,14 @@ struct VisibleErrors {
   double oracle = 0;
 };
 
-// Compares the model with two traced references of the poses, which use independent rays.
+// Compares the model with two ray traces of the poses that use independent rays.
 VisibleErrors visible_errors(const SkinnedMesh& mesh, const CharacterModel& model,
                              std::span<const Pose> poses, const AoTargets& first, const AoTargets& second);
 
 struct JudgedPart {
   std::string name;
   JudgedErrors error;
-  double share_of_error = 0, share_of_area = 0;  // of the body's
+  double share_of_error = 0, share_of_area = 0;  // shares of the whole body's error and area
 };
 
 struct Judgement {
@@ -65,8 +65,8 @@ struct Judgement {
   std::uint32_t rays = 0;
   VisibleErrors errors;
   std::vector<JudgedPart> clips, parts, meshes;  // worst first: clips by ratio, the others by share of error
-  double torn_edges = 0;     // share of edge-poses that automatic poses tear; 0 without such poses
-  double torn_by_clips = 0;  // share that the file's own clips tear
+  double torn_edges = 0;     // mean share of edges that an automatic pose tears; 0 without such poses
+  double torn_by_clips = 0;  // the same share for the file's own clips
   std::vector<std::string> bones_without_role;  // the joints that move at least 2 % of the body's area
 
   double over_static() const { return errors.by_vertices.over_static(); }
@@ -79,8 +79,8 @@ struct Judgement {
 Judgement judge_model(const ImportedCharacter& character, const CharacterModel& model, const Recipe& recipe,
                       const JudgedPoses& judged, std::uint64_t seed, const Progress& progress = {});
 
-// Returns one or two sentences with the figures. For a poor model, they also say what is wrong, why, and what
-// to do.
+// Returns the figures in one or two sentences. For a poor model, also says what is wrong, why, and what to
+// do.
 std::string summary_of(const Judgement& judgement);
 
 }  // namespace nook::bake

@@ -13,8 +13,8 @@ struct Value {
   float y, dy_ddelta2, dy_dxi;
 };
 
-// The form of slide 18. The absolute distance has no derivative at the centre. A small added constant keeps
-// the derivative finite.
+// The kernel of slide 18. Its absolute distance has no derivative at the centre, so a small constant is added
+// to keep the derivative finite.
 struct PaperForm {
   static NOOK_INLINE Value value(float delta2, float xi) {
     const float delta = std::sqrt(delta2 + 1e-12f);
@@ -48,7 +48,7 @@ struct NookForm {
 };
 
 // Keeps powers and their derivatives finite where rounding gives 0 or less. Uses a plain comparison, because
-// fmax also handles NaNs, and the compiler then does not vectorise.
+// fmax also handles NaNs, which would prevent vectorisation.
 NOOK_INLINE float at_least(float y) {
   return y > 1e-9f ? y : 1e-9f;
 }

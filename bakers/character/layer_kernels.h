@@ -14,7 +14,7 @@ namespace nook::bake {
 // arithmetic is the same as in sdk/src/character/kernel.h. The code is separate because it also computes
 // derivatives.
 
-// Arrays of count values (a multiple of 16), one for each coordinate.
+// Arrays of `count` values, one array per coordinate; `count` is a multiple of 16.
 struct KeyPointArrays {
   const float *px, *py, *pz, *nx, *ny, *nz;
   std::size_t count;
@@ -26,7 +26,7 @@ struct SphereGradient {
   float x = 0, y = 0, z = 0, log_radius = 0;
 };
 
-// Adds y^gamma of one sphere to `sum`. The centre is in world space, in metres.
+// Adds y^gamma of one sphere to the sums. The centre is in world space, in metres.
 void add_sphere(const Kernel& kernel, const float centre[3], float inverse_radius, const KeyPointArrays& keys,
                 float* sum);
 

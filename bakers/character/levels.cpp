@@ -90,8 +90,8 @@ struct Line {
   float scale = 0, offset = 0, residual = 0;  // `residual` is a mean square
 };
 
-// Fits lines between the shadows of key points. It stores the means and centred second moments over the even
-// poses, so that a fit for one pair of key points is fast.
+// Fits lines between the shadows of key points. Stores means and centred values over the even poses, so that
+// the fit of one pair of key points is fast.
 class Regression {
  public:
   Regression(const Shadows& fine, const Shadows& coarse) : points_(fine.points) {
@@ -101,7 +101,7 @@ class Regression {
   }
 
   // Fits: shadow of fine point k = scale * shadow of coarse point r + offset. The scale is >= 0, because one
-  // shadow should not fall while the other rises.
+  // shadow should not fall when the other rises.
   Line fit(std::size_t k, std::size_t r) const {
     double kk = 0, kr = 0, rr = 0;
     const float *a = &fine_[k * samples_], *b = &coarse_[r * samples_];
@@ -120,7 +120,7 @@ class Regression {
   }
 
  private:
-  // Rows are points, so that a fit reads only two rows.
+  // Each row is a key point, so that a fit reads only two rows.
   std::vector<float> centred(const Shadows& shadows, std::vector<float>& mean) const {
     mean.assign(points_, 0.0f);
     std::vector<float> rows(points_ * samples_);
@@ -137,10 +137,10 @@ class Regression {
   std::vector<float> fine_, coarse_, fine_mean_, coarse_mean_;
 };
 
-// Returns the cost if key point k follows key point r, for all pairs. The cost is the error at the vertices
-// plus a penalty for the distance between both points and the angle between their normals. The penalty is
-// needed because a follower also takes over the occlusion by other casters, which no pose contains. A
-// distance of 0.1 m counts as 0.01 of shadow, and an angle of 60 degrees as 0.05.
+// For all pairs, returns the cost if key point k takes its shadow from key point r. The cost is the error at
+// the vertices plus a penalty for the distance between both points and the angle between their normals. The
+// poses contain no other casters, but k also takes the occlusion by other casters from r, so it must be near
+// r. A distance of 0.1 m counts as 0.01 of shadow, and an angle of 60 degrees as 0.05.
 std::vector<float> following_cost(const CharacterModel& model, const Regression& regression) {
   const std::size_t points = model.key_points.size();
   std::vector<float> weight(points, 0.0f);

@@ -1,5 +1,4 @@
-// Makes the levels of detail of a model. They are made once, at bake time, from poses. Their error is
-// measured on other poses.
+// Makes the levels of detail of a model from poses, at bake time. Their error is measured on other poses.
 #pragma once
 
 #include <span>

@@ -11,7 +11,7 @@ namespace {
 
 using RowMatrix = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
-// Minimum weights of a vertex's anchors, in proportion to their nearness.
+// Minimum weights of a vertex's anchors, proportional to the nearness of each anchor.
 std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vertex,
                                   const LinearFitSettings& settings, std::size_t anchors) {
   std::vector<double> floor(anchors, 1.0);
@@ -24,9 +24,9 @@ std::vector<double> anchor_floors(const Candidates& candidates, std::size_t vert
   return floor;
 }
 
-// Solves for the weights of the chosen key points by non-negative least squares with an active set.
-// Repeatedly solves without bounds and drops the entry with the most negative weight, until no weight is
-// negative. A dropped entry has the weight 0 in the result.
+// Solves for the weights of the chosen key points by non-negative least squares with an active set. Solves
+// without bounds and drops the entry with the most negative weight, until no weight is negative. A dropped
+// entry has the weight 0 in the result.
 Eigen::VectorXd solve_non_negative(const Eigen::MatrixXd& gram, const Eigen::VectorXd& correlation) {
   const Eigen::Index n = correlation.size();
   std::vector<Eigen::Index> active(static_cast<std::size_t>(n));
@@ -59,8 +59,8 @@ ShadowStatistics statistics_of(std::span<const float> shadows, std::size_t poses
   s.mean = all.colwise().mean();
   s.centred = all.rowwise() - s.mean;
   s.gram = Eigen::MatrixXd::Zero(columns, columns);
-  // The product of each block of rows is computed in floats, and the products are summed in doubles. This is
-  // fast, and accurate enough for a well-scaled Gram matrix.
+  // Products within a block of rows are computed in floats, and the products of the blocks are added in
+  // doubles. This is fast, and accurate enough for a well-scaled Gram matrix.
   const Eigen::Index block = 256;
   for (Eigen::Index first = 0; first < rows; first += block) {
     const auto part = s.centred.middleRows(first, std::min(block, rows - first));
@@ -104,7 +104,7 @@ constexpr double constant_variance = 1e-8;
 struct Choice {
   std::vector<Eigen::Index> key_point;
   Eigen::VectorXd weight;
-  double explained = 0;  // explained part of the variance
+  double explained = 0;  // how much of the variance the weights explain
 
   double weight_of(Eigen::Index k) const {
     const auto found = std::find(key_point.begin(), key_point.end(), k);
@@ -125,7 +125,7 @@ class KeyPointChoice {
     return std::find(allowed_.begin(), end, k) != end;
   }
 
-  // Stops when a further key point would explain less than `minimum_gain` of additional variance.
+  // Stops when another key point would explain less than `minimum_gain` of additional variance.
   Choice run(const Eigen::VectorXd& correlation, double minimum_gain) const {
     Choice choice;
     for (;;) {
@@ -139,7 +139,7 @@ class KeyPointChoice {
 
  private:
   // Returns the key point that explains most of the remaining variance if it is added and the other weights
-  // do not change. Returns -1 if no key point can be added.
+  // stay the same. Returns -1 if no key point can be added.
   Eigen::Index best_addition(const Choice& choice, const Eigen::VectorXd& correlation) const {
     const auto others = std::count_if(choice.key_point.begin(), choice.key_point.end(),
                                       [&](Eigen::Index k) { return !is_anchor(k); });
@@ -194,7 +194,7 @@ LinearLayerFit empty_fit(std::size_t vertices, std::size_t entries) {
   return fit;
 }
 
-// Solves one vertex, which is a column of the block, and writes its part of the fit.
+// Solves for one vertex, which is a column of the block, and writes its part of the fit.
 void fit_vertex(std::size_t vertex, Eigen::Index column, const ShadowStatistics& shadows,
                 const DarknessBlock& darkness, const Candidates& candidates,
                 const LinearFitSettings& settings, LinearLayerFit& fit) {

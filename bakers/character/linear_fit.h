@@ -1,5 +1,5 @@
-// Fits the linear layer by constrained least squares: few key points per vertex, non-negative weights, free
-// bias.
+// Fits the linear layer by constrained least squares: a few key points per vertex, non-negative weights, and
+// a bias without bounds.
 #pragma once
 
 #include <cstdint>
@@ -19,19 +19,19 @@ struct Candidates {
 
 struct LinearFitSettings {
   std::size_t entries = 7;   // at most this many key points per vertex
-  double ridge = 1e-4;       // on alpha, relative to the mean variance of the shadows
+  double ridge = 1e-4;       // ridge for alpha, relative to the mean variance of the shadows
   double least_gain = 1e-3;  // an entry must lower the vertex's squared error by at least this share of the
                              // vertex's variance
   // The first `anchors` candidates of a vertex are the key points nearest to it. They always get an entry.
-  // Their weights sum to at least anchor_floor, which is split by nearness. The darkening by other casters is
-  // interpolated from the same entries, and needs near key points.
+  // Their weights sum to at least anchor_floor, which they share by nearness. The occlusion by other casters
+  // is interpolated from the same entries, so it needs key points nearby.
   std::size_t anchors = 3;
   double anchor_floor = 0.06;
 };
 
 // Solves for alpha and bias of every vertex over the fitted poses of the set. All vertices share the Gram
-// matrix of the shadows, so the cost of a vertex depends only on its number of candidates. This is the
-// paper's caching (slides 55 to 57), applied to the linear layer.
+// matrix of the shadows, so the cost of a vertex depends only on its number of candidates. This applies the
+// paper's caching (slides 55 to 57) to the linear layer.
 LinearLayerFit fit_linear_layer(std::span<const float> shadows, std::size_t padded, const TrainingSet& set,
                                 const Candidates& candidates, const LinearFitSettings& settings);
 

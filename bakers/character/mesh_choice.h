@@ -1,4 +1,4 @@
-// The choice of meshes of a bake, as recipes store it.
+// The meshes that a bake reads, as recipes store them.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,8 +7,8 @@
 
 namespace nook::bake {
 
-// Adds the choice to a recipe. Adds nothing if the bake reads all meshes. stored_meshes (recipe.h) reads the
-// choice.
+// Adds the mesh selection to a recipe. Adds nothing if the bake reads all meshes. Read the selection with
+// stored_meshes (recipe.h).
 void store_meshes(nlohmann::ordered_json& recipe, const MeshSelection& meshes);
 
 }  // namespace nook::bake

@@ -38,7 +38,7 @@ class Adam {
 
 // Learning rates in the units of the parameters: metres, log radius, components of unit normals, square roots
 // of weights. A step changes each parameter by about its rate. We chose each rate from the typical size of
-// its parameter, without a search.
+// its parameter and did not search for the best value.
 constexpr float sphere_rate[LayerStructure::sphere_parameters] = {2e-3f, 2e-3f, 2e-3f, 1e-2f};
 constexpr float key_point_rate[LayerStructure::key_point_parameters] = {
     2e-3f, 2e-3f, 2e-3f, 2e-2f, 2e-2f, 2e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f, 1e-2f};
@@ -53,8 +53,7 @@ class PoseOrder {
   }
   std::size_t next() {
     if (at_ == 0) {
-      // This is the Fisher-Yates shuffle. We do not use std::shuffle, because it differs between standard
-      // libraries.
+      // The Fisher-Yates shuffle. The result of std::shuffle would depend on the standard library.
       for (std::size_t i = order_.size(); i > 1; --i) std::swap(order_[i - 1], order_[random_() % i]);
     }
     const std::size_t pose = order_[at_];

@@ -1,5 +1,5 @@
-// Fits both layers together with Adam on mini-batches of poses. All parameters are optimised at once. The
-// loss is the clamped error, the same one that is reported.
+// Fits all parameters of both layers together, with Adam on mini-batches of poses. The loss is the clamped
+// error, the same error that is reported.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@ namespace nook::bake {
 struct MiniBatchSettings {
   std::size_t steps = 10000;
   std::uint64_t seed = 1;
-  float rate = 1;            // factor of all learning rates
+  float rate = 1;            // factor for all learning rates
   float final_rate = 0.02f;  // rate at the last step as a share of the full rate (cosine decay)
   float warmup = 0.02f;      // share of the steps with a rising rate
 };

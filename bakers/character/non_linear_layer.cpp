@@ -7,8 +7,8 @@
 namespace nook::bake {
 namespace {
 
-// Coordinate of the key points that pad the SIMD vectors. It is so large that they receive no shadow, but its
-// square is still finite.
+// Position of the key points that pad the SIMD vectors. They are so far away that they receive no shadow, but
+// the square of the coordinate is still finite.
 constexpr float far_away = 1e6f;
 
 struct BlendedKeyPoint {
@@ -48,8 +48,8 @@ float uniform_scale(const Mat3x4& a) {
   return length({a.m[0], a.m[4], a.m[8]});
 }
 
-// The derivatives of a key point's shadow: with respect to the sum of the terms of all spheres, and with
-// respect to the square root of the saturation.
+// The derivatives of a key point's shadow with respect to the sum over all spheres, and with respect to the
+// square root of the saturation.
 struct ShadowSlope {
   float by_sum, by_root;
 };

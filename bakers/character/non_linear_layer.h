@@ -61,8 +61,8 @@ class NonLinearLayer {
   void forward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
                float* shadow, std::size_t stride = 1) const;
 
-  // Adds d(loss)/d(parameters) to `gradient`, given d(loss)/d(shadow). Before the call, you must call forward
-  // with the same arguments.
+  // Adds d(loss)/d(parameters) to `gradient`, given d(loss)/d(shadow). Call forward() with the same arguments
+  // first.
   void backward(std::span<const Mat3x4> bones, std::span<const float> parameters, LayerWorkspace& workspace,
                 const float* gradient_shadow, std::size_t stride, std::span<float> gradient) const;
 

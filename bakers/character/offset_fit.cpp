@@ -18,7 +18,7 @@ constexpr double old_constant_poses = 4;
 // old_scale_poses). `scale_ridge` has the unit of a squared shadow.
 constexpr double scale_ridge = 2e-3, old_scale_poses = 20;
 constexpr double least_scale = 0.05, most_scale = 4;
-// Targets within this margin of black or white count as black or white. The margin is one ray of 64.
+// Targets within this margin of black or white count as black or white. The margin is one of 64 rays.
 constexpr double clamped_margin = 1.0 / 64;
 
 // One vertex in one pose.
@@ -38,8 +38,8 @@ bool is_hidden(const Sample& sample, const Line& line) {
   return (ao <= 0 && sample.truth <= clamped_margin) || (ao >= 1 && sample.truth >= 1 - clamped_margin);
 }
 
-// Fits the darkness as a line over the shadow, by least squares. Leaves out the samples whose error clamping
-// hides under the line `now`.
+// Fits the darkness as a linear function of the shadow, by least squares. Ignores samples whose error is
+// hidden because the line `now` is clamped.
 Line line_of(std::span<const Sample> samples, double old_bias, double mean, const Line& now) {
   const double old_level = old_bias + mean;  // the darkness of the old line at the mean
   double count = old_constant_poses, x1 = 0, y1 = old_constant_poses * old_level, xx = 0, xy = 0;
@@ -60,8 +60,8 @@ Line line_of(std::span<const Sample> samples, double old_bias, double mean, cons
   return line;
 }
 
-// Fits a line by Newton's method. The squared error is convex, and quadratic as long as the set of clamped
-// samples does not change. So a few rounds are enough.
+// Fits a line by Newton's method. The squared error is convex, and it is quadratic as long as the same
+// samples are clamped. So a few rounds are enough.
 Line fitted_line(std::span<const Sample> samples, double old_bias) {
   constexpr int rounds = 12;
   double mean = 0;

@@ -128,7 +128,7 @@ def features(motion, upright):
 def k_means(points, count, random):
     centres = [points[0]]
     distance = np.full(len(points), np.inf)
-    for _ in range(count - 1):  # k-means++: far points are likelier, so rare poses get a centre
+    for _ in range(count - 1):  # k-means++: prefers far points, so that rare poses get a centre
         distance = np.minimum(distance, np.sum((points - centres[-1])**2, 1))
         centres.append(points[random.choice(len(points), p=distance / distance.sum())])
     centres = np.array(centres)
@@ -141,8 +141,8 @@ def k_means(points, count, random):
 def main():
     motions = {p.stem: Motion(p) for p in sorted(pathlib.Path(sys.argv[1]).glob("*.bvh"))}
     walks = [m for name, m in motions.items() if name.startswith("007") or name in ("002_01", "002_02")]
-    # Finds the upright direction in the axes of each joint. A walking person is upright on average, so this is the
-    # mean of the world's up over walks.
+    # Find the upright direction in the axes of each joint. A walking person is upright on average, so we take the mean
+    # of the world's up direction over walks.
     upright = {part: unit(np.mean([np.einsum("tji,j->ti", m.rotation[joint], UP).mean(0) for m in walks], 0))
                for part, joint in JOINT_OF.items()}
     points = np.concatenate([features(m, upright) for m in motions.values()])
@@ -153,8 +153,8 @@ def main():
     factors = (vectors[:, order] * np.sqrt(values[order])).T
     print(f"{len(points)} poses of {len(motions)} motions; the centres leave {rest.var() / points.var():.2f} of the "
           f"variance, and the factors hold {values[order].sum() / values.sum():.2f} of that")
-    # A centre's share is the square root of its number of poses. Most poses stand or walk, so without the square
-    # root, other poses would be rare.
+    # A centre's share is the square root of its number of poses. Most poses stand or walk, so without the square root,
+    # other poses would be rare.
     write(centres, factors, np.sqrt(np.bincount(nearest, minlength=CENTRES)), len(points), len(motions))
 
 

@@ -19,7 +19,7 @@ bool is_upper(char c) {
   return c >= 'A' && c <= 'Z';
 }
 
-// Bytes of UTF-8 beyond ASCII are letters.
+// Non-ASCII bytes of UTF-8 count as letters.
 bool is_letter(char c) {
   return is_lower(c) || is_upper(c) || static_cast<unsigned char>(c) >= 0x80;
 }
@@ -36,8 +36,7 @@ std::string_view without_namespace(std::string_view name) {
   return name;
 }
 
-// Returns the length of the prefix that all names share, up to and including the prefix's last byte that is
-// not a letter.
+// Returns the length of the prefix that all names share. The prefix ends with a byte that is not a letter.
 std::size_t shared_prefix(std::span<const std::string_view> names) {
   if (names.size() < 2) return 0;
   std::string_view shared = names.front();
@@ -73,8 +72,8 @@ std::vector<std::string> clip_families(std::span<const std::string_view> names) 
 
 namespace {
 
-// Returns true for "T-Pose", "t_pose", "TPose", "A-Pose", "Armature|A pose": the letters of the name end with
-// the word tpose or apose.
+// Returns true if the letters of a name after the last | or : spell tpose or apose. Examples: "T-Pose",
+// "t_pose", "TPose", "A-Pose", "Armature|A pose".
 bool is_reference_pose(const std::string& name) {
   std::string letters;
   for (char c : name) {
@@ -174,8 +173,7 @@ std::vector<std::uint32_t> posable_joints(const SkinnedMesh& mesh) {
   }
   std::vector<std::uint32_t> joints;
   for (std::size_t b = 0; b < bones; ++b) {
-    // A joint that moves every vertex with full weight does not change AO. A root with only part of the
-    // weights does.
+    // Skips joints that move every vertex, because a turn of the whole body does not change AO.
     if (moved[b] > 0 && moved[b] < vertices) joints.push_back(std::uint32_t(b));
   }
   return joints;

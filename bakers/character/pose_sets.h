@@ -36,24 +36,24 @@ Pose turn_joints(const SkinnedMesh& mesh, std::span<const JointRotation> turns);
 std::vector<Pose> clip_poses(const ImportedCharacter& character, std::span<const std::size_t> clips,
                              std::size_t samples_per_clip);
 
-// Returns the clips of a character that show motion: all but T- and A-poses (by name), in byte order of their
-// names.
+// Returns the clips of a character that show motion, in byte order of their names. These are all clips except
+// T- and A-poses, which are recognised by their names.
 std::vector<std::size_t> motion_clips(const ImportedCharacter& character);
 
-// Alternate clips: index 0, 2, ... are for fitting, the others are for measuring on unseen clips.
+// Clips 0, 2, ... are for fitting. The other clips are for measuring on unseen clips.
 struct ClipSplit {
   std::vector<std::size_t> fitted, measured;
 };
 ClipSplit split_clips(std::span<const std::size_t> clips);
-// Splits by families (clip_families() above) in the order of their first clips, so that all parts of one
-// motion are on the same side. If there is only one family, no clip is left for measuring.
+// Splits by families (clip_families() above), in the order of each family's first clip, so that all parts of
+// one motion are on the same side. If there is only one family, no clip is left for measuring.
 ClipSplit split_families(const ImportedCharacter& character, std::span<const std::size_t> clips);
 
 // Returns poses of an object with one bone, turned about the vertical axis to `count` evenly spaced
-// directions. `shift` moves all directions by this share of the step between them.
+// directions. `shift` turns all directions by this share of the step between two directions.
 std::vector<Pose> turned_poses(std::size_t count, float shift);
 
-// Keeps at most this many items, evenly picked; 0 keeps all.
+// Keeps at most max_count items at even intervals; 0 keeps all.
 template <class Item>
 void thin_out(std::vector<Item>& items, std::size_t max_count) {
   if (max_count == 0 || items.size() <= max_count) return;

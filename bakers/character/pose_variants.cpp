@@ -28,8 +28,7 @@ Vec3 reflected_point(Vec3 point, const Plane& plane) {
   return point - 2 * (dot(point, plane.normal) - plane.offset) * plane.normal;
 }
 
-// A joint and all joints below it. If two joints have the same position, the joints below them distinguish
-// them.
+// A joint and all joints below it. Two joints at the same position still differ in the joints below them.
 struct Branch {
   Vec3 middle;  // mean over the joint and all joints below it, metres
   float count = 1;
@@ -76,7 +75,7 @@ std::vector<std::uint32_t> twins(const SkinnedMesh& mesh, const BodyTree& tree, 
     if (twin[b] == nobody) return {};
     twin[twin[b]] = b;
   }
-  // If all joints of a rig lie in the plane, there is no evidence that both sides are equal.
+  // If all joints of a rig lie in the plane, nothing shows that both sides are equal.
   for (std::uint32_t b = 0; b < count; ++b)
     if (twin[b] != b) return twin;
   return {};
@@ -161,7 +160,7 @@ class Maker {
 
   Pose make(Random& random) const {
     constexpr int tries = 8;
-    // Joining the hands does not change the fingers of the pose, because all clips of a rig tend to have
+    // When hands are joined, the fingers keep the curl of the pose, because all clips of a rig tend to have
     // similar finger poses.
     constexpr float allowed = 0.6f, mirrored_share = 0.5f, joined_share = 0.15f;
     Pose best;
@@ -184,8 +183,8 @@ class Maker {
   }
 
  private:
-  // Picks a random pose. Raises `limit` to the depth of this pose: if the body touches itself in a pose, it
-  // may also do so in variants of the pose.
+  // Picks a random pose. Raises `limit` to the depth of self-intersection of this pose, because variants of a
+  // pose may intersect as deeply as the pose itself.
   const Motions& pick(Random& random, float& limit) const {
     const std::size_t i = random.below(std::uint32_t(given_.size()));
     limit = std::max(limit, depth_[i]);
@@ -194,7 +193,7 @@ class Maker {
 
   Motions draw(Random& random, float& limit) const {
     constexpr float blended_share = 0.4f, mixed_share = 0.6f;
-    // Interpolation shares between two poses. A negative share leads away from the other pose.
+    // The share of the other pose in the blend. A negative share leads away from the other pose.
     constexpr float least = -0.3f, most = 0.7f;
     constexpr int most_limbs = 3;
     Motions motions = pick(random, limit);

@@ -15,20 +15,19 @@ namespace nook::bake {
 
 struct MirrorRig {
   Vec3 normal;                      // normal of the plane of symmetry, unit length
-  std::vector<std::uint32_t> twin;  // mirror image of each bone; a bone in the middle of the body is its own
-                                    // mirror image
+  std::vector<std::uint32_t> twin;  // mirror image of each bone; itself for a bone in the middle
 };
 
-// Finds the symmetry about an upright plane across x or z. The mirrored rest position of every joint must be
-// within 2 % of the rig's extent from its twin. The parents of twins must be twins too. At least one joint
-// must have a twin other than itself. Returns nothing for rigs that do not satisfy this.
+// Finds the symmetry about an upright plane across x or z. Returns nothing if there is none. The mirrored
+// rest position of every joint must be within 2 % of the rig's extent from its twin. The parents of twins
+// must be twins too. At least one joint must have a twin other than itself.
 std::optional<MirrorRig> find_mirror(const SkinnedMesh& mesh, const BodyTree& tree);
 
-// Returns the mirror image of a pose. Mirroring twice gives the pose back.
+// Returns the mirror image of a pose. Mirroring the result again gives the original pose.
 std::vector<JointMotion> mirrored(const MirrorRig& mirror, std::span<const JointMotion> motions);
 
-// Makes poses from given ones: mirrors them, combines limbs of one with the body of another, and interpolates
-// and extrapolates between two.
+// Makes poses from given ones: mirrors a pose, puts limbs of one pose on the body of another, and
+// interpolates and extrapolates between two poses.
 
 // Makes `count` poses. The same seed gives the same poses. Returns nothing if no pose is given.
 std::vector<Pose> pose_variants(const SkinnedMesh& mesh, std::span<const float> vertex_area,

@@ -22,7 +22,7 @@
 namespace nook::bake {
 
 PresetValues preset_values(Preset preset, FitMethod fit) {
-  // Steps of mini-batches are cheap, but rounds of block descent are not.
+  // A step of mini-batches is cheap, but a round of block descent is not.
   const bool paper = fit == FitMethod::paper;
   PresetValues v;
   v.settings.fit = fit;
@@ -35,7 +35,7 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
       v.single_joint_steps = 3;
       break;
     case Preset::standard:
-      // Few rays on many poses give the best model. The noise of a target averages out over the poses, but a
+      // Few rays on many poses give the best model. The noise of the rays averages out over the poses, but a
       // model cannot learn what no pose shows.
       v.settings.rays = 16;
       v.settings.steps = paper ? 20 : 20000;
@@ -48,7 +48,7 @@ PresetValues preset_values(Preset preset, FitMethod fit) {
       v.auto_poses = 10000;
       v.clip_poses = 4000;
       if (!paper) {
-        // With more key points, the error is lower (docs/character.md), but an update takes a fifth longer.
+        // More key points lower the error (docs/character.md), but an update takes a fifth longer.
         v.settings.key_points = 800;
         v.settings.spheres = 100;
       }
@@ -98,7 +98,7 @@ std::string hash_of_names(const ImportedCharacter& character) {
   return hex(hash64(std::as_bytes(std::span(all))));
 }
 
-// Returns one hexadecimal digit for each four clips. The first clip is the lowest bit of the first digit.
+// Returns one hexadecimal digit for every four clips. The first clip is the lowest bit of the first digit.
 std::string clip_bits(const ImportedCharacter& character, const std::vector<std::size_t>& chosen) {
   const std::vector<std::size_t> order = clips_by_name(character);
   std::vector<unsigned> digits((order.size() + 3) / 4, 0);
@@ -189,7 +189,7 @@ std::vector<Pose> automatic_poses(const ImportedCharacter& character, const Reci
 
 namespace {
 
-// Returns true if this version makes the same poses as the recipe's generation.
+// Returns true if this version makes the same poses as the version that made the recipe.
 bool makes_same_poses(const ImportedCharacter& character, const Recipe& recipe) {
   if (recipe.generation == pose_generation) return true;
   if (recipe.generation != 3 && recipe.generation != 4) return false;
@@ -277,7 +277,7 @@ Recipe read_recipe(const ImportedCharacter& character, std::string_view text) {
       r.clips = clips_of_bits(character, j.at("clips"));
     }
     r.samples_per_clip = j.at("samples_per_clip");
-    // Older files without variants have neither key.
+    // Older files without variant poses lack the variant keys.
     r.variant_poses = j.value("variant_poses", std::size_t(0));
     r.generation = j.value("generation", 1);
     r.single_joint_steps = j.at("single_joint_steps");

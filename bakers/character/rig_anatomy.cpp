@@ -73,7 +73,7 @@ JointRole role_of(const std::string& text, Side side, JointRole parent) {
   if (contains(text, {"head"})) return JointRole::head;
   if (contains(text, {"spine", "chest", "torso", "abdomen", "waist"})) return JointRole::spine;
   if (contains(text, {"pelvis", "hip"})) return side == Side::none ? JointRole::pelvis : JointRole::thigh;
-  // "arm" or "leg" without a prefix means the next part of the limb.
+  // Without a prefix, "arm" or "leg" stands for the next part of the limb.
   if (contains(text, {"arm"}) && side != Side::none)
     return parent == JointRole::upper_arm ? JointRole::forearm
            : parent == JointRole::forearm ? JointRole::hand
@@ -86,7 +86,7 @@ JointRole role_of(const std::string& text, Side side, JointRole parent) {
   return JointRole::other;
 }
 
-// The role that continues a limb towards its end.
+// Returns the role that comes next on a limb.
 JointRole next_role(JointRole role) {
   switch (role) {
     case JointRole::clavicle:
@@ -106,8 +106,8 @@ JointRole next_role(JointRole role) {
   }
 }
 
-// Rigs with inverse kinematics keep feet and hands outside the limbs that they belong to. Attaches each to
-// the limb of the same side that has no end yet.
+// Rigs with inverse kinematics keep feet and hands outside their limbs. Attaches each foot or hand to the
+// limb of the same side that has no end yet.
 void attach_loose_ends(std::vector<Joint>& joints) {
   const auto attach = [&](JointRole limb, JointRole end) {
     for (std::size_t b = 0; b < joints.size(); ++b) {
@@ -185,14 +185,14 @@ std::optional<JointRole> role_named(std::string_view name) {
 
 namespace {
 
-// Returns the parents for a person. A loose foot or hand becomes a child of its limb.
+// Returns the parents of a person's bones. A loose foot or hand becomes a child of its limb.
 std::vector<std::int32_t> parents_of_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
   BodyTree tree;
   for (const Bone& bone : mesh.bones) tree.parent.push_back(bone.parent);
   for (std::size_t b = 0; b < joints.size(); ++b) {
     const std::int32_t next = joints[b].continuation;
     if (next < 0 || tree.parent[std::size_t(next)] == std::int32_t(b)) continue;
-    // Keeps the parent if the limb is a descendant of its own end. Otherwise, there would be a cycle.
+    // Keeps the parent if the limb is a descendant of its foot or hand. A new parent would make a cycle.
     if (!is_below(tree, b, std::size_t(next))) tree.parent[std::size_t(next)] = std::int32_t(b);
   }
   return tree.parent;
@@ -233,8 +233,8 @@ bool is_person(const SkinnedMesh& mesh, std::span<const Joint> joints) {
 
 namespace {
 
-// Uses the roles of the geometry if it shows a limb. For a mesh that is only a part of a body, such as a hand
-// or an arm, names are more reliable.
+// Uses the roles found by geometry if one of them is a limb. For a mesh that is only a part of a body, such
+// as a hand or an arm, names are more reliable.
 std::vector<Joint> roles_of_other_body(const SkinnedMesh& mesh, std::vector<Joint> named,
                                        const RigCorrections& corrections) {
   std::vector<Joint> joints = roles_by_geometry(mesh, corrections);

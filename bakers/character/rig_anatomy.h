@@ -1,4 +1,4 @@
-// Interprets a rig as a body: where its joints are, their roles, how they are connected, and the directions
+// Interprets a rig as a body: the places and roles of its joints, how they are connected, and the directions
 // of limbs.
 #pragma once
 
@@ -20,9 +20,9 @@ inline Vec3 joint_origin(const Bone& bone) {
   return {bone.frame_rest.m[3], bone.frame_rest.m[7], bone.frame_rest.m[11]};
 }
 
-// The role of each bone of a rig. If a rig has the bone names and the body plan of a person, the roles come
-// from the names, so that automatic poses can bend knees backwards. For every other rig, the roles come from
-// the mesh, the hierarchy and the rest pose (rig_geometry.h). There, names are only a hint.
+// The role of each bone of a rig. If a rig has the bone names and the shape of a person, the roles come from
+// the names, so that automatic poses know where knees can bend. For every other rig, the roles come from the
+// mesh, the hierarchy and the rest pose (rig_geometry.h), and names are only a hint.
 
 enum class JointRole : std::uint8_t {
   other,
@@ -40,7 +40,8 @@ enum class JointRole : std::uint8_t {
   calf,
   foot,
   toe,
-  // Roles only for bodies that are not people. Their spines, necks, heads and feet have the roles above.
+  // Only bodies that are not people have the roles below. Their spines, necks, heads and feet have the roles
+  // above.
   leg,
   arm,
   wing,
@@ -53,8 +54,8 @@ enum class JointRole : std::uint8_t {
 };
 constexpr std::size_t joint_role_count = std::size_t(JointRole::control) + 1;
 
-// The first function returns the lower-case name of a role, as rig files and `nook inspect --rig` write it.
-// The second returns the role for a name.
+// name_of returns a role's lower-case name, as rig files and `nook inspect --rig` write it. The other
+// function returns the role for a name.
 const char* name_of(JointRole role);
 std::optional<JointRole> role_named(std::string_view name);
 
@@ -63,11 +64,11 @@ enum class Side : std::uint8_t { none, left, right };
 struct Joint {
   JointRole role = JointRole::other;
   Side side = Side::none;
-  std::uint8_t segment = 0;        // of fingers: 0 at the knuckle, then 1, 2
-  std::int32_t continuation = -1;  // the bone that continues the limb: the first child with a later role, or
-                                   // the foot or hand that the rig keeps outside the limb; -1: none
-  std::int32_t limb = -1;          // number of the leg, wing, tail, ... that the bone belongs to; -1: none
-  std::int32_t parent = -1;        // in the body, see BodyTree; -1: a root
+  std::uint8_t segment = 0;  // of fingers: 0 at the knuckle, then 1, 2
+  std::int32_t continuation =
+      -1;  // the next bone: the first child with a later role, or a loose foot or hand; -1: none
+  std::int32_t limb = -1;    // number of the leg, wing, tail, ... that the bone belongs to; -1: none
+  std::int32_t parent = -1;  // parent in the body (see BodyTree); -1: a root
 };
 
 // A user's correction of one bone (rig_file.h). Fields that are not set are determined automatically.
@@ -81,8 +82,8 @@ struct BoneCorrection {
 };
 using RigCorrections = std::vector<BoneCorrection>;
 
-// Finds roles only by names, for the common humanoid rigs (Unreal, Rigify, Biped, Mixamo, Unity). Bones that
-// are not recognised get JointRole::other.
+// Finds roles only by names, for common humanoid rigs (Unreal, Rigify, Biped, Mixamo, Unity). Bones with
+// other names get JointRole::other.
 std::vector<Joint> named_roles(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
 // Returns true if the joints belong to a person. Each side must have one thigh with a calf, and an upper arm.
@@ -91,15 +92,15 @@ bool is_person(const SkinnedMesh& mesh, std::span<const Joint> joints);
 
 std::vector<Joint> joint_roles(const SkinnedMesh& mesh, const RigCorrections& corrections = {});
 
-// The hierarchy of a body, which can differ from the hierarchy of its rig. For example, feet that a rig moves
-// by inverse kinematics are children of the rig's root, but in the body they belong to the calves.
+// The hierarchy of a body. It can differ from the hierarchy of its rig. For example, a rig may move feet by
+// inverse kinematics and keep them under its root, but in the body the feet belong to the calves.
 
 struct BodyTree {
   std::vector<std::int32_t> parent;  // of each bone; -1: a root
   std::vector<std::uint32_t> order;  // bones, parents before children
 };
 
-// Returns the rig's hierarchy, changed so that a bone that continues a limb is a child of that limb
+// Returns the rig's hierarchy, except that a bone that continues a limb is a child of that limb
 // (Joint::parent).
 BodyTree body_tree(const SkinnedMesh& mesh, std::span<const Joint> joints);
 BodyTree body_tree(const SkinnedMesh& mesh);
@@ -116,16 +117,16 @@ bool is_below(const BodyTree& tree, std::size_t bone, std::size_t ancestor);
 
 // The direction in which a body faces in its rest pose, and the directions of its limbs.
 
-// Directions of the body in rest space. Rest space is glTF's, with +y up.
+// Directions of the body in rest space. Rest space uses the axes of glTF, with +y up.
 struct BodyFrame {
   Vec3 left, up, forward;
 };
 
-// Joints with a known side determine where left is. If there are none, left is +x.
+// Left is where the joints on the left side are. If no joint has a side, left is +x.
 BodyFrame body_frame(const SkinnedMesh& mesh, std::span<const Joint> joints);
 
-// Returns the direction from a joint to the joint that continues its limb, with unit length in rest space.
-// Returns zero if there is none.
+// Returns the direction from a joint to the joint that continues its limb, as a unit vector in rest space.
+// Returns zero if no joint continues it.
 Vec3 limb_direction(const SkinnedMesh& mesh, std::span<const Joint> joints, std::size_t bone);
 
 }  // namespace nook::bake

@@ -133,7 +133,7 @@ struct Holder {
   float amount = 0, of_ancestors = 0;
 };
 
-// Returns the bone outside a branch that shares most skin with the branch. `of_ancestors` is the skin that
+// Returns the bone outside a branch that shares most skin with the branch. `of_ancestors` is how much skin
 // the branch shares with the ancestors of its root.
 Holder holder_by_edges(std::span<const SkinContact> contacts, std::span<const std::int32_t> parent,
                        const std::vector<char>& branch, std::size_t root) {
@@ -153,8 +153,8 @@ Holder holder_by_edges(std::span<const SkinContact> contacts, std::span<const st
   return holder;
 }
 
-// Returns the bone that holds an unconnected part of the mesh. It is the bone of the nearest vertex outside
-// the part, if the distance is less than 3 % of the body's diagonal.
+// Returns the bone that holds an unconnected part of the mesh: the bone of the nearest vertex outside the
+// part, if the distance is less than 3 % of the body's diagonal.
 Holder holder_by_nearness(const SkinnedMesh& mesh, const std::vector<char>& branch) {
   constexpr std::size_t most_samples = 12;
   std::vector<std::uint32_t> own, other;
@@ -219,7 +219,7 @@ std::vector<std::int32_t> parents_by_skin(const SkinnedMesh& mesh, const RigCorr
       holder.bone = parent[std::size_t(holder.bone)];
     if (holder.bone < 0 || branch[std::size_t(holder.bone)]) continue;
     if (holder.of_ancestors >= 0.1f * holder.amount) continue;
-    // Siblings such as thighs may touch each other, but they are still children of their parent.
+    // Siblings such as thighs may touch each other, but they keep their common parent.
     const bool is_far = depth_of(parent, holder.bone) >= depth_of(parent, above) + 2;
     if (above < 0 || is_far) parent[b] = holder.bone;
   }
@@ -309,8 +309,8 @@ BodySides body_sides(const SkinnedMesh& mesh, std::span<const std::int32_t> pare
   for (const Vec3 p : mesh.position) all.add(p);
   const Vec3 mean = count > 0 ? (1 / count) * sum : Vec3{}, centre = 0.5f * (all.low + all.high);
   BodySides best;
-  // Compares the number of pairs first, and then the number of pairs and middle bones together. For example,
-  // the joints of a snake along x have no pairs across x, and they all lie in the middle across z.
+  // Compares the number of pairs first, then the number of pairs and middle bones together. For example, the
+  // bones of a snake along x form no pairs across x, and they all lie in the middle across z.
   std::pair<int, int> most{-1, -1};
   for (const bool x : {true, false})
     for (const float middle : {x ? mean.x : mean.z, 0.0f, x ? centre.x : centre.z}) {
@@ -362,7 +362,7 @@ class RigReader {
   BodySides sides_;
   BoneSkin skin_;
   std::vector<char> live_, helper_, carried_;
-  std::vector<Box> below_;  // skin of a bone and all below it
+  std::vector<Box> below_;  // bounds of the skin of a bone and all bones below it
   std::vector<std::vector<std::size_t>> children_;
   std::vector<Vec3> tip_;
   Box body_;
@@ -398,8 +398,8 @@ RigReader::RigReader(const SkinnedMesh& mesh, const RigCorrections& corrections)
   find_carried();
 }
 
-// Finds objects that a limb carries. Such an object is an unconnected part of the mesh at the end of a
-// branch, on a body that does not consist of unconnected parts itself.
+// Finds objects that a limb carries. A carried object is an unconnected part of the mesh at the end of a
+// branch. A body that consists of unconnected parts carries no objects.
 void RigReader::find_carried() {
   carried_.assign(live_.size(), 0);
   std::vector<char> touches(live_.size(), 0);
@@ -418,8 +418,8 @@ void RigReader::find_carried() {
   }
 }
 
-// The names of heads and tails determine the front. Without such names, the front is +z, or +x for a body
-// whose sides differ in z.
+// Bones that are named head, neck, jaw, snout or tail determine the front. Without such names, the front is
+// +z, or +x for a body whose sides differ in z.
 void RigReader::find_front() {
   Vec3 all, difference;
   float count = 0;
@@ -503,7 +503,7 @@ JointRole RigReader::role_of_branch(std::size_t root) const {
       lateral > 0.5f * along)
     return JointRole::wing;
   const float reach = length(size), whole = length(body);
-  // Small branches of the last bone in the middle mark a head.
+  // On a head, a small branch that reaches above the head's joint is an ear.
   const std::int32_t on = parent_[root];
   if (on >= 0 && joints_[std::size_t(on)].role == JointRole::head)
     return reach < 0.25f * whole && below_[root].high.y > origin(std::size_t(on)).y ? JointRole::ear
@@ -511,7 +511,7 @@ JointRole RigReader::role_of_branch(std::size_t root) const {
   return reach > 0.08f * whole ? JointRole::arm : JointRole::other;
 }
 
-// The last bones of a leg that are below a quarter of the height of the leg's root form the foot.
+// A foot consists of the last bones of a leg that are lower than a quarter of the height of the leg's root.
 void RigReader::read_feet(const std::vector<std::size_t>& chain) {
   const float ground = body_.low.y, height = origin(chain.front()).y - ground;
   for (std::size_t i = 2; i < chain.size(); ++i)
@@ -550,8 +550,8 @@ void RigReader::read_branch(std::size_t root) {
   }
 }
 
-// Returns true for a bone of the trunk: it is in the middle, and there are limbs before and behind it along
-// the body.
+// Returns true for a bone of the trunk: it is in the middle, and the body has limbs in front of it and behind
+// it.
 bool RigReader::spans_body(std::size_t b) const {
   std::size_t with = 0;
   bool own = false, elsewhere = false;
@@ -616,8 +616,8 @@ void RigReader::read_middle() {
 }
 
 std::vector<Joint> RigReader::read() {
-  // Heads are needed to distinguish ears from arms, and limbs to distinguish spines from necks. So read limbs
-  // first, then the middle, then the small branches again.
+  // Ears can be distinguished from arms only when the heads are known, and spines from necks only when the
+  // limbs are known. So we read limbs first, then the middle, then the small branches again.
   std::vector<std::size_t> roots;
   for (const std::uint32_t b : order_) {
     if (!live_[b] || is_middle(b)) continue;
@@ -635,8 +635,8 @@ std::vector<Joint> RigReader::read() {
   return joints_;
 }
 
-// Numbers legs first, from front to back, left before right. Then numbers all other branches and the chains
-// of the middle.
+// Numbers legs first, from front to back, and left before right. Then numbers all other branches and the
+// chains of the middle.
 void RigReader::number_limbs() {
   const float left = front_ * (sides_.across_x ? 1.0f : -1.0f);
   std::vector<std::size_t> roots = branch_roots_;

@@ -9,7 +9,7 @@
 
 namespace nook::bake {
 
-// Returns the rotation by Rodrigues' formula. The length of the vector is the angle in radians.
+// Returns the rotation about `axis_angle` by Rodrigues' formula. The vector's length is the angle in radians.
 inline Mat3x4 rotation(Vec3 axis_angle) {
   const float angle = length(axis_angle);
   Mat3x4 r;
@@ -23,7 +23,7 @@ inline Mat3x4 rotation(Vec3 axis_angle) {
   return r;
 }
 
-// Returns the turn that takes one unit vector to another by the shortest way: axis times angle, radians.
+// Returns the shortest turn that takes one unit vector to another, as axis times angle, in radians.
 inline Vec3 shortest_arc(Vec3 from, Vec3 to) {
   const Vec3 axis = cross(from, to);
   const float s = length(axis), c = dot(from, to);

@@ -44,15 +44,15 @@ float overlap(Vec3 a, float radius_a, Vec3 b, float radius_b) {
 SelfCollision::SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                              const RigCorrections& corrections)
     : spheres_(initial_spheres(mesh, vertex_area, 100)) {
-  // The radius of an initial sphere is a standard deviation. For points on the skin of a round limb, this is
-  // the limb's radius divided by sqrt(2).
+  // The radius of an initial sphere is a standard deviation. For vertices on a round limb, it is the limb's
+  // radius divided by sqrt(2).
   for (InitialSphere& s : spheres_) s.radius *= 1.414f;
   const std::vector<Joint> joints = joint_roles(mesh, corrections);
   const BodyTree tree = body_tree(mesh, joints);
   const std::vector<std::int32_t> hand = hands_of_bones(tree, joints);
   for (std::size_t i = 0; i < spheres_.size(); ++i)
     for (std::size_t j = i + 1; j < spheres_.size(); ++j) {
-      // Skips pairs within one hand, because fingers touch each other and the palm in every fist.
+      // Skip pairs within one hand, because fingers touch each other and the palm in every fist.
       if (hand[spheres_[i].bone] >= 0 && hand[spheres_[i].bone] == hand[spheres_[j].bone]) continue;
       if (related(tree, spheres_[i].bone, spheres_[j].bone)) continue;
       pairs_.push_back({std::uint16_t(i), std::uint16_t(j)});

@@ -15,9 +15,9 @@ class SelfCollision {
   SelfCollision(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                 const RigCorrections& corrections = {});
 
-  // Returns the deepest overlap of two spheres of bones that are not neighbours, minus their overlap in the
-  // rest pose. The unit is the smaller radius. At 0, the spheres are apart or touch. At 1, the smaller sphere
-  // has sunk in by its radius.
+  // Returns the deepest overlap of two spheres, minus their overlap in the rest pose. Spheres of bones that
+  // are near each other in the hierarchy are not compared. The unit is the smaller radius. At 0, the spheres
+  // touch or are apart. At 1, the smaller sphere has sunk in by its radius.
   float depth(const Pose& pose) const;
 
   // Like depth(), but ignores overlaps between the two hands. Use it for hands that hold each other or one

@@ -1,5 +1,5 @@
-// Finds edges of a mesh that a pose tears. Torn edges are a sign that a bone does not move with the bone that
-// the neighbouring skin follows.
+// Finds edges of a mesh that a pose tears. Torn edges show that a bone does not move with the bone of the
+// neighbouring skin.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 
 namespace nook::bake {
 
-// A torn edge is stretched to more than this multiple of its rest length ...
+// A torn edge is stretched to more than this multiple of its rest length, and ...
 constexpr float torn_stretch = 2.5f;
-// ... and grows by more than this share of the diagonal of the resting body. Short edges of an elbow stretch
-// far without a visible tear.
+// ... it grows by more than this share of the diagonal of the resting body. Without the second condition,
+// short edges at an elbow, which stretch far without a visible tear, would count as torn.
 constexpr float torn_growth = 0.01f;
 
 using MeshEdge = std::array<std::uint32_t, 2>;
@@ -22,7 +22,7 @@ using MeshEdge = std::array<std::uint32_t, 2>;
 // Returns each edge of the mesh once, in ascending order. The smaller vertex index of an edge comes first.
 std::vector<MeshEdge> mesh_edges(const SkinnedMesh& mesh);
 
-// Counts the edges that one pose tears. `posed` has the skinned vertices of that pose.
+// Counts the edges that one pose tears. `posed` contains the skinned vertices of the pose.
 std::size_t count_torn(const SkinnedMesh& mesh, std::span<const MeshEdge> edges, std::span<const Vec3> posed);
 
 // Returns the share of torn edges over all edges and poses, 0 to 1. Returns 0 if there are no edges or poses.

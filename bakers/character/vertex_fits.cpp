@@ -33,8 +33,8 @@ LinearLayerFit fitted_layer(const CharacterModel& model, const FitState& state, 
                           settings);
 }
 
-// Copies everything that all meshes of the rig have in common. This includes the caster weights, and the
-// positions at which other casters darken key points.
+// Copies everything that all meshes of the rig share, including caster weights and the positions at which
+// other casters darken key points.
 void take_rig(const CharacterModel& model, CharacterModel& out) {
   out.kernel = model.kernel;
   out.bone_names = model.bone_names;
@@ -88,9 +88,9 @@ CharacterModel refit_vertices(const CharacterModel& model, const SkinnedMesh& me
 
 namespace {
 
-// Weight of each of the two known observations of a vertex; a traced pose has the weight 1. Traced
-// observations are noisy, and they do not depend on AO alone. About ten poses with different AO outweigh the
-// known observations.
+// Weight of each of the two known observations of a vertex. A traced pose has the weight 1. Traced
+// observations are noisy, and the occluded direction depends on more than AO, so about ten poses with
+// different AO should outweigh the known observations.
 constexpr double known_weight = 0.1;
 
 Mat3x4 blended_bones(const SkinWeights& weights, const Pose& pose) {
@@ -102,7 +102,7 @@ Mat3x4 blended_bones(const SkinWeights& weights, const Pose& pose) {
   return sum;
 }
 
-// Undoes a turn of v: multiplies by the transpose of the matrix, without its scale.
+// Turns v back: multiplies it by the transpose of the matrix, without the matrix's scale.
 Vec3 turned_back(const Mat3x4& turn, Vec3 v) {
   const float* m = turn.m;
   const Vec3 back{m[0] * v.x + m[4] * v.y + m[8] * v.z, m[1] * v.x + m[5] * v.y + m[9] * v.z,

@@ -12,9 +12,9 @@
 
 namespace nook::bake {
 
-// Fits the linear layer of a model for another mesh of the same rig, such as a level of detail. Spheres, key
-// points, levels and casters are not changed. Only the weights of each vertex are fitted, to ray tracing of
-// the other mesh, so that the AO matches the shape of the other mesh.
+// Fits the linear layer of a model for another mesh of the same rig, such as a level of detail. Only the
+// weights of each vertex are fitted, to ray tracing of the other mesh, so that AO matches the shape of that
+// mesh. Spheres, key points, levels and casters do not change.
 
 struct RefitSettings {
   std::uint32_t rays = 128;  // per vertex and pose
@@ -35,17 +35,17 @@ struct OccludedFitSettings {
   std::uint64_t seed = 1;
 };
 
-// What is observed at a welded vertex in one pose: its AO and its occluded direction. The direction is turned
-// back to rest space by the inverse of the vertex's blended bone matrix.
+// The AO and the occluded direction of each welded vertex in one pose. The direction is turned back to rest
+// space by the inverse of the vertex's blended bone matrix.
 struct OccludedSample {
   std::vector<float> ao;
   std::vector<Vec3> occluded;
 };
 OccludedSample trace_occluded(const SkinnedMesh& mesh, const Pose& pose, const OccludedFitSettings& settings);
 
-// Fits the line of the occluded direction over AO for one vertex, by least squares. Two extra observations
-// with a small weight keep the line stable where AO hardly changes. They are known: at AO 1 nothing is
-// occluded, so the direction is 0. At AO 0 everything is occluded, so the direction is 2/3 of the normal.
+// Fits the occluded direction of one vertex as a linear function of AO, by least squares. Two known
+// observations with a small weight keep the line stable where AO hardly changes. At AO 1, nothing is
+// occluded, so the direction is 0. At AO 0, everything is occluded, so the direction is 2/3 of the normal.
 class OccludedLine {
  public:
   void add(float ao, Vec3 occluded, double weight = 1);
@@ -56,8 +56,8 @@ class OccludedLine {
   double dark_[3] = {}, open_[3] = {};
 };
 
-// Returns both ends of the line for each welded vertex. The same seed gives the same bits on any number of
-// threads. Throws Failure: INVALID_ARGUMENT (no poses), CANCELLED.
+// For each welded vertex, returns the values at both ends of the line (AO 0 and 1). The same seed gives the
+// same bits on any number of threads. Throws Failure: INVALID_ARGUMENT (no poses), CANCELLED.
 std::vector<OccludedEnds> fit_occluded(const SkinnedMesh& mesh, std::span<const Pose> poses,
                                        const OccludedFitSettings& settings, const Progress& progress = {});
 
