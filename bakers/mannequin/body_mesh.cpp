@@ -25,8 +25,7 @@ std::vector<Vec3> area_weighted_normals(const TriangleMesh& mesh) {
 }
 
 std::vector<std::vector<std::uint32_t>> vertex_neighbours(const TriangleMesh& mesh) {
-  // On a closed mesh, each edge occurs once in each direction, so it is enough to add one end per triangle
-  // edge.
+  // On a closed mesh, each edge occurs once in each direction. So we add only one end per edge of a triangle.
   std::vector<std::vector<std::uint32_t>> neighbours(mesh.positions_m.size());
   for (const Triangle& t : mesh.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -57,15 +56,15 @@ class Marcher {
   Marcher(const BodySdf& sdf, double cell_m) : sdf_(sdf), cell_m_(cell_m) {}
 
   TriangleMesh run() {
-    // Starts with a cube of 2^9 cells per side around the figure. Subdivides it down to single cells where
-    // the skin may pass.
+    // Starts with a cube of 2^9 cells per side around the figure. Subdivides it to single cells where the
+    // skin may pass through.
     visit({-256, -16, -256}, 512);
     return std::move(mesh_);
   }
 
  private:
-  // The six tetrahedra share the cube's diagonal. Neighbouring cubes use the same diagonal of their common
-  // face.
+  // The six tetrahedra share the cube's diagonal. Neighbouring cubes split their common face along the same
+  // diagonal.
   static constexpr Corner tetrahedra[6][3] = {
       {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, {{0, 1, 0}, {0, 0, 1}, {1, 0, 0}},
       {{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 0}, {1, 0, 0}, {0, 0, 1}},
@@ -95,7 +94,7 @@ class Marcher {
     }
     const int half = size / 2;
     const Vec3 centre_m = position_m(low + Corner{half, half, half});
-    // The margin over the half diagonal is necessary because the distance is an estimate.
+    // The cube's half diagonal needs a margin, because the distance is an estimate.
     constexpr double margin = 1.8;
     if (std::abs(sdf_.distance(centre_m)) > margin * std::sqrt(3.0) * half * cell_m_ && size < 64) {
       return;
@@ -147,8 +146,8 @@ class Marcher {
     for (const Corner& c : in) {
       outwards -= position_m(c) / static_cast<double>(in.size());
     }
-    // Computes the crossings in separate statements, because the order in which function arguments are
-    // evaluated depends on the compiler.
+    // Compute the crossings in separate statements, because compilers differ in the order in which they
+    // evaluate function arguments.
     if (in.size() == 2) {
       const std::uint32_t a = crossing(in[0], out[0]);
       const std::uint32_t b = crossing(in[0], out[1]);
@@ -173,13 +172,13 @@ class Marcher {
   TriangleMesh mesh_;
 };
 
-/// Polygonises the skin by marching tetrahedra on a uniform grid. The mesh is dense and irregular, but always
-/// a closed manifold.
+/// Polygonises the skin by marching tetrahedra on a uniform grid. The mesh is dense and irregular, but it is
+/// always a closed manifold.
 TriangleMesh march_tetrahedra(const BodySdf& sdf, double cell_m) {
   return Marcher(sdf, cell_m).run();
 }
 
-// The cells are fine enough that the gaps between the fingers stay open.
+// The cells are small enough to keep the gaps between the fingers open.
 constexpr double finest_cell_m = 0.0060;
 constexpr int rounds = 7;
 
@@ -187,8 +186,8 @@ double target_edge_m(const Vec3& point_m) {
   static const ArmFrame arm = left_arm_frame();
   const Vec3 p(std::abs(point_m.x), point_m.y, point_m.z);
   double edge_m = 0.0268;
-  // Limbs get shorter edges than the trunk, because they are thinner and need rings of vertices to bend at
-  // the joints.
+  // Limbs get shorter edges than the trunk, because they are thinner and need rings of vertices at the joints
+  // to bend.
   const double along_arm_m = glm::dot(p - arm.shoulder_m, arm.along);
   const double off_arm_m = glm::length(p - arm.shoulder_m - arm.along * along_arm_m);
   if (off_arm_m < 0.12 && along_arm_m > 0.0) {

@@ -9,8 +9,7 @@
 namespace nook::mannequin {
 namespace {
 
-// The distances of lofts and ellipsoids are estimates, which may be too small. Bounds are enlarged to allow
-// for this.
+// The distances of lofts and ellipsoids are estimates, which may be too small. So bounds are enlarged.
 constexpr double bound_safety = 0.5;
 
 bool out_of_reach(const Vec3& point_m, const Vec3& centre_m, double radius_m, double limit_m) {
@@ -191,7 +190,7 @@ Part make_head() {
   head.add(RoundCone{Vec3(0.0, 1.420, -0.040), Vec3(0.0, 1.590, -0.010), 0.059, 0.053}, 0.02);
   head.add(RoundCone{Vec3(0.056, 1.595, -0.022), Vec3(0.016, 1.440, 0.034), 0.013, 0.009}, 0.022);
   head.add(RoundCone{Vec3(0.0, 1.552, 0.036), Vec3(0.0, 1.520, 0.026), 0.012, 0.010}, 0.020);
-  // Skull and face. The front reach of the loft's sections is the profile of the face.
+  // Skull and face. The forward reach of the loft's sections gives the profile of the face.
   head.add(Ellipsoid{Vec3(0.0, 1.662, -0.008), Vec3(0.0765, 0.088, 0.097)}, 0.03);
   head.add(Loft(Vec3(0.0), x_axis, z_axis, y_axis,
                 {slice(1.526, 0.022, 0.046, 0.022, 0.042), slice(1.540, 0.034, 0.060, 0.035, 0.036),
@@ -225,7 +224,7 @@ Part make_head() {
 
 Part make_leg() {
   Part leg(0.030);
-  // Columns: height; centre x, z; reach outwards, inwards, to the front, to the back.
+  // Columns: height; centre x, z; reach outwards, inwards, forwards, backwards.
   leg.add(Loft(Vec3(0.0), x_axis, z_axis, y_axis,
                {{0.930, 0.088, -0.004, 0.072, 0.066, 0.076, 0.080},
                 {0.880, 0.093, -0.002, 0.080, 0.072, 0.088, 0.090},
@@ -276,8 +275,8 @@ Part make_foot() {
                  {0.182, -0.004, 0.015, 0.034, 0.036, 0.012, 0.015}},
                 0.022, 2.6),
            0.02);
-  // Toes are rounded shapes at the front edge. The big toe is separate from the others, and each further toe
-  // is set back a little more.
+  // Toes are rounded shapes at the front edge. The big toe is separate. Each further toe is a little further
+  // back.
   foot.add(RoundCone{origin + along * 0.130 - across * 0.026 + y_axis * 0.018,
                      origin + along * 0.200 - across * 0.026 + y_axis * 0.014, 0.016, 0.0125},
            0.010);
@@ -361,7 +360,7 @@ Part make_hand() {
                  {0.083, 0.000, 0.000, 0.040, 0.039, 0.0115, 0.0125}},
                 0.006, 2.3),
            0.012);
-  // Balls of the thumb and of the little finger.
+  // The pads at the base of the thumb and of the little finger.
   hand.add(RoundCone{at(0.018, 0.016, -0.010), at(0.050, 0.034, -0.014), 0.016, 0.014}, 0.014);
   hand.add(RoundCone{at(0.018, -0.018, -0.010), at(0.060, -0.026, -0.010), 0.012, 0.010}, 0.014);
   // The fold of skin between thumb and index finger.

@@ -7,7 +7,7 @@
 
 namespace nook::mannequin {
 
-/// One mass of the figure, and how it is joined to the previous masses.
+/// One shape of the figure, and how it is joined to the previous shapes.
 struct Mass {
   std::variant<RoundCone, Ellipsoid, Loft> shape;
   double blend_m;
@@ -16,7 +16,7 @@ struct Mass {
   double bound_radius_m = 0.0;
 };
 
-/// A group of masses. They are joined to each other first, and then to the rest of the figure.
+/// A group of shapes. They are joined to each other first, and then to the rest of the figure.
 class Part {
  public:
   explicit Part(double blend_m) : blend_m_(blend_m) {}
@@ -27,8 +27,8 @@ class Part {
   void carve(const RoundCone& cone, double blend_m);
   void carve(const Ellipsoid& ellipsoid, double blend_m);
 
-  /// Returns the distance `known_m` of the rest of the figure, joined with this part. If the part is too far
-  /// away to have an effect, the call costs a single comparison.
+  /// Joins this part with the rest of the figure, whose distance is `known_m`, and returns the joined
+  /// distance. If the part is too far away to have an effect, the call costs a single comparison.
   double join(double known_m, const Vec3& point_m) const;
   void close();  ///< Computes the bounding sphere. Call this once, after the last mass.
 
@@ -42,14 +42,14 @@ class Part {
 };
 
 /// The signed distance to the skin in metres, negative inside. The distance is approximate away from the
-/// skin. The figure is mirrored in x.
+/// skin. The figure is symmetric in x.
 class BodySdf {
  public:
   BodySdf();
 
   double distance(const Vec3& point_m) const;
   Vec3 gradient(const Vec3& point_m) const;
-  /// Moves a point that is near the skin onto it.
+  /// Moves a point near the skin onto the skin.
   Vec3 project(const Vec3& point_m) const;
 
  private:

@@ -19,10 +19,10 @@ namespace {
 constexpr double keys_per_second = 24.0;
 constexpr int fewest_keys = 24;
 
-// As in files from Blender and Mixamo, the file has z up and its own unit, and a node above the skeleton
-// rotates and scales it into the world. So the skinning matrices of the file are not rest-to-world matrices,
-// and a sample that confuses the two looks wrong. The scale is a power of two and the rotation a quarter
-// turn, so that no precision is lost.
+// Like files from Blender and Mixamo, the file has z up and its own unit. A node above the skeleton rotates
+// and scales it into the world. So the skinning matrices of the file are not rest-to-world matrices. A sample
+// that confuses the two looks wrong. The scale is a power of two and the rotation a quarter turn, so that no
+// precision is lost.
 constexpr double units_per_metre = 128.0;
 
 /// Converts from model space (y up) to the axes of the file (z up).
@@ -31,7 +31,7 @@ Vec3 turned(const Vec3& v) {
 }
 
 /// The armature node converts the file's axes and units to the world. The root bone rotates the axes back, so
-/// that all other bones keep their model-space axes. The root may have a matrix, because it is not animated.
+/// that all other bones keep the axes of model space. The root can have a matrix because it is not animated.
 const std::vector<double> armature_columns{
     1 / units_per_metre, 0, 0, 0, 0, 0, -1 / units_per_metre, 0, 0, 1 / units_per_metre, 0, 0, 0, 0, 0, 1};
 const std::vector<double> root_columns{1, 0, 0, 0, 0, 0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1};
@@ -143,14 +143,15 @@ void add_mesh(Builder& builder, const TriangleMesh& mesh, const std::vector<Vert
   builder.model().materials.push_back(std::move(material));
 }
 
-/// Returns the offset from the parent, in the parent's own axes. The bone must not be the root, which has no
-/// parent and is at the origin.
+/// Returns a bone's offset from its parent, in the parent's own axes. The bone must not be the root, which
+/// has no parent and is at the origin.
 Vec3 local_offset_m(const Skeleton& skeleton, const Bone& bone) {
   const Bone& parent = skeleton.bones()[static_cast<std::size_t>(bone.parent)];
   return glm::conjugate(parent.orientation) * (bone.position_m - parent.position_m);
 }
 
-/// Appends the inverse bind matrix of a bone. It converts from the axes and units of the mesh to the bone's.
+/// Appends the inverse bind matrix of a bone. It converts from the axes and units of the mesh to the axes and
+/// units of the bone.
 void append_inverse_bind(std::vector<float>& to, const Bone& bone) {
   const Mat3 turn = glm::transpose(glm::mat3_cast(bone.orientation));
   for (const Vec3& column : {turn[0], -turn[2], turn[1]}) {
@@ -227,7 +228,7 @@ void add_animation(Builder& builder, const Skeleton& skeleton, const Clip& clip)
     for (std::size_t i = 0; i < skeleton.size(); ++i) {
       Quat q = pose.local_rotation(static_cast<int>(i));
       // q and -q are the same rotation. We choose the one closer to the previous key, so that players
-      // interpolate the short way.
+      // interpolate along the shorter way.
       if (glm::dot(q, previous[i]) < 0.0) {
         q = -q;
       }
@@ -254,7 +255,7 @@ void add_animation(Builder& builder, const Skeleton& skeleton, const Clip& clip)
   add_channel(pelvis_bone, "translation", key_times, builder.add_floats(pelvis, TINYGLTF_TYPE_VEC3));
   const int end_times = builder.add_floats({times.front(), times.back()}, TINYGLTF_TYPE_SCALAR, 0, true);
   for (std::size_t i = 1; i < skeleton.size(); ++i) {
-    // Most finger bones do not move. For them, two keys are enough and need only a fraction of the bytes.
+    // Most finger bones do not move. Two keys are enough for them and save most of the bytes.
     std::vector<float>& keys = rotations[i];
     const bool is_still = std::equal(keys.begin() + 4, keys.end(), keys.begin());
     if (is_still) {

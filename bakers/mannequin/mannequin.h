@@ -1,6 +1,6 @@
-// A procedural character: a human figure with a skeleton, skin weights and eight looping clips (Idle, Walk,
-// Run, Crouch, Sit, Wave, Punch, Dance). Samples and tests use it if they need a character and no file is
-// given. So the repository does not have to contain an asset.
+// A character made by code: a human figure with a skeleton, skin weights and eight looping clips (Idle, Walk,
+// Run, Crouch, Sit, Wave, Punch, Dance). Samples and tests use it when no file is given, so the repository
+// does not need to contain an asset.
 //
 // Start reading at make_mannequin_glb at the end of mannequin.cpp. It shows the four steps:
 //   bones, pose, motions    the bones in the bind pose, poses as rotations away from bind pose, and motions

@@ -9,28 +9,28 @@
 namespace nook::mannequin {
 namespace {
 
-/// Returns a sine wave with one period per loop. It is ahead by `lead` loops.
+/// Returns a sine wave with one period per loop, shifted so that it comes `lead` loops earlier.
 double swing(double phase, double lead = 0.0) {
   return std::sin(2.0 * std::numbers::pi * (phase + lead));
 }
 
-/// Rises from 0 to 1 and falls back to 0 between the phases `from` and `to`. Stays at 1 for the share `hold`
-/// of this time.
+/// Rises from 0 to 1 and falls back to 0 between the phases `from` and `to`. It stays at 1 for a share of
+/// `hold` of this time.
 double pulse(double phase, double from, double to, double hold = 0.2) {
   const double edge = 0.5 * (1.0 - hold) * (to - from);
   return ramp(phase, from, from + edge) * (1.0 - ramp(phase, to - edge, to));
 }
 
-/// A foot's cycle when walking in place: the foot slides back while it stands, and then swings forward
-/// through the air.
+/// A foot's cycle when walking in place: the foot slides backwards while it is on the ground, then it swings
+/// forwards through the air.
 struct Gait {
   double half_stride_m;
-  double stance;  ///< Share of the cycle that the foot is on the ground.
+  double stance;  ///< Share of the cycle in which the foot is on the ground.
   double lift_m;
-  double strike_deg;  ///< How far the toes are up when the heel touches down.
-  double push_deg;    ///< How far the heel is up when the toes leave the ground.
-  double centre_m;    ///< Offset of the cycle's middle, ahead of the bind pose.
-  double narrow_m;    ///< Offset towards the middle, because people walk with their feet nearly in line.
+  double strike_deg;  ///< How far the toes are raised when the heel touches down.
+  double push_deg;    ///< How far the heel is raised when the toes leave the ground.
+  double centre_m;    ///< How far the middle of the cycle is ahead of the bind pose.
+  double narrow_m;    ///< How far the foot is moved inwards: people walk with their feet nearly in line.
 };
 
 void step(Pose& pose, Side side, const Gait& gait, double phase) {
@@ -93,7 +93,7 @@ Pose pose_walk(const Skeleton& skeleton, double phase) {
   // The left heel touches down at phase 0, and the right heel half a cycle later. The body is lowest just
   // after each of these moments.
   pose.shift_pelvis({0.016 * swing(phase, -0.05), -0.026 + 0.014 * swing(2.0 * phase, -0.30), 0.0});
-  const double lead = swing(phase, 0.25);  // +1 with the left leg ahead
+  const double lead = swing(phase, 0.25);  // +1 when the left leg is ahead
   pose.turn("pelvis", y_axis, -6.0 * lead);
   pose.turn("pelvis", z_axis, -2.5 * swing(phase, -0.05));
   pose.turn("pelvis", x_axis, 3.0);
@@ -185,7 +185,7 @@ Pose pose_crouch(const Skeleton& skeleton, double phase) {
              {bind_ball_m(Side::right) + Vec3(-0.06, 0.0, -0.05), 14.0, 10.0 + 22.0 * deep, 0.45});
   const int chest = skeleton.find("spine_03");
   for (Side side : {Side::left, Side::right}) {
-    // Hands are held ready, between the knees and the chin.
+    // The hands are ready to act, between the knees and the chin.
     const double s = sign_of(side);
     const Vec3 wrist(s * 0.13, 1.27 + 0.04 * deep, 0.42 + 0.02 * s * look);
     place_hand(pose, side,
@@ -202,7 +202,7 @@ Pose pose_crouch(const Skeleton& skeleton, double phase) {
 
 Pose pose_sit(const Skeleton& skeleton, double phase) {
   Pose pose(skeleton);
-  // Sits on a seat 0.45 m high. The body rocks forward over the knees and back.
+  // Sits on a seat 0.45 m high. The body rocks forwards over the knees and backwards again.
   const double forward = 0.5 - 0.5 * swing(phase, 0.25);
   pose.shift_pelvis({0.0, -0.390, -0.30});
   pose.turn("pelvis", x_axis, -10.0 + 12.0 * forward);

@@ -16,12 +16,12 @@ struct Clip {
 /// Returns the clips Idle, Walk, Run, Crouch, Sit, Wave, Punch and Dance.
 const std::vector<Clip>& all_clips();
 
-// Clips of standing, walking and running.
+// Standing, walking and running.
 Pose pose_idle(const Skeleton& skeleton, double phase);
 Pose pose_walk(const Skeleton& skeleton, double phase);
 Pose pose_run(const Skeleton& skeleton, double phase);
 
-// Clips of other actions.
+// Other actions.
 Pose pose_crouch(const Skeleton& skeleton, double phase);
 Pose pose_sit(const Skeleton& skeleton, double phase);
 Pose pose_wave(const Skeleton& skeleton, double phase);

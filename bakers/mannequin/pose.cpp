@@ -51,14 +51,14 @@ double sign_of(Side side) {
 
 namespace {
 
-/// The share of the hand's roll that the middle of the forearm follows.
+/// When the hand rolls, the middle of the forearm rolls by this share.
 constexpr double forearm_share = 0.55;
 
 Vec3 mirrored(const Vec3& v, Side side) {
   return {v.x * sign_of(side), v.y, v.z};
 }
 
-/// Returns the rotation that turns one pair of directions into another.
+/// Returns the rotation that takes one pair of directions to another pair.
 Quat between(const Vec3& from_first, const Vec3& from_second, const Vec3& to_first, const Vec3& to_second) {
   return glm::normalize(
       glm::quat_cast(axes_from(to_first, to_second) * glm::transpose(axes_from(from_first, from_second))));
@@ -78,7 +78,7 @@ double twist_deg(const Quat& q, const Vec3& axis) {
   return degrees < -180.0 ? degrees + 360.0 : degrees;
 }
 
-/// Sets the bone's rotation so that its model-space rotation away from the bind pose is `facing`.
+/// Sets the bone's rotation so that it is rotated by `facing` from the bind pose, in model space.
 void face(Pose& pose, int bone, const Quat& facing) {
   const int parent = pose.skeleton().bones()[static_cast<std::size_t>(bone)].parent;
   pose.set_turn(bone, glm::normalize(glm::conjugate(pose.facing(parent)) * facing));
@@ -175,7 +175,7 @@ void place_foot(Pose& pose, Side side, const FootPlan& plan) {
   const Vec3 ankle = hip + down * reach;
 
   face(pose, thigh, between(bind_m(calf) - bind_m(thigh), z_axis, knee - hip, ahead));
-  // The front of the calf stays in line with the front of the thigh, at any bend of the knee.
+  // The front of the calf keeps in line with the front of the thigh, however far the knee bends.
   const Vec3 hinge = glm::cross(down, ahead);
   face(pose, calf,
        between(bind_m(foot) - bind_m(calf), z_axis, ankle - knee,
@@ -236,7 +236,7 @@ void make_fist(Pose& pose, Side side) {
   for (const char* finger : {"index", "middle", "ring", "pinky"}) {
     curl_finger(pose, side, finger, 76.0, 80.0);
   }
-  // Swings the thumb's root under the palm, then folds the thumb across the curled fingers.
+  // Swings the base of the thumb under the palm, then folds the thumb over the curled fingers.
   bend_thumb(pose, side, 42.0, 0.0, Vec3(0.0, -0.8, -0.8));
   bend_thumb(pose, side, 0.0, 34.0, Vec3(0.0, 0.0, -1.0));
 }

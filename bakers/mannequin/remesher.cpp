@@ -47,11 +47,11 @@ class HalfEdgeMesh {
   int valence(Index v) const;
 
   void split(Index h, const Vec3& middle_m);
-  /// Replaces the edge by the other diagonal of its two triangles. If this edge exists already, changes
+  /// Replaces the edge by the other diagonal of its two triangles. If the mesh already has that edge, changes
   /// nothing and returns false.
   bool flip(Index h);
-  /// Merges both ends of the edge into one vertex. If this would break the manifold, flip a triangle or make
-  /// an edge longer than `longest_edge_m`, changes nothing and returns false.
+  /// Merges both ends of the edge into one vertex. Changes nothing and returns false if this would break the
+  /// manifold, flip a triangle or make an edge longer than `longest_edge_m`.
   bool collapse(Index h, const Vec3& merged_m, double longest_edge_m);
 
  private:
@@ -125,7 +125,7 @@ void HalfEdgeMesh::pair(Index a, Index b) {
 }
 
 void HalfEdgeMesh::split(Index h, const Vec3& middle_m) {
-  // Each of the two triangles is halved, and one half becomes a new triangle.
+  // Each of the two triangles becomes half as large. The other halves become new triangles.
   const Index g = twin_[h];
   const Index end = to(h), far_h = opposite(h), far_g = opposite(g);
   const Index h_next = next(h), g_prev = previous(g);
@@ -221,8 +221,8 @@ bool HalfEdgeMesh::collapse(Index h, const Vec3& merged_m, double longest_edge_m
   return true;
 }
 
-// Botsch and Kobbelt's bounds, relative to the target length. Splitting longer edges and collapsing shorter
-// ones brings their length closer to the target.
+// The bounds of Botsch and Kobbelt, relative to the target length. Splitting an edge above the upper bound,
+// or collapsing one below the lower bound, brings edges closer to the target length.
 constexpr double split_above = 4.0 / 3.0;
 constexpr double collapse_below = 4.0 / 5.0;
 
@@ -234,8 +234,8 @@ class Remesher {
       : mesh_(dense), sdf_(sdf), edge_length_m_(edge_length_m) {}
 
   TriangleMesh run(int rounds) {
-    // The dense mesh shrinks by an order of magnitude. Collapsing edges with a growing target length keeps
-    // the triangles well shaped.
+    // The dense mesh shrinks to a tenth of its vertices. The target length grows in steps, which keeps the
+    // triangles well shaped.
     for (double step : {0.5, 0.75, 1.0}) {
       collapse_short_edges(step);
       even_out_valences();
@@ -247,7 +247,7 @@ class Remesher {
       even_out_valences();
       relax(true);
     }
-    // Valences hardly change any more. The last rounds open the remaining narrow angles.
+    // Valences hardly change any more. The last rounds widen the remaining narrow angles.
     for (int round = 0; round < 4; ++round) {
       open_narrow_angles();
       relax(true);

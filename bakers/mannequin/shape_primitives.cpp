@@ -15,8 +15,8 @@ double smooth_subtract(double a_m, double b_m, double blend_m) {
 }
 
 double RoundCone::distance(const Vec3& point_m) const {
-  // The cone that is tangent to both end spheres divides space into three regions: two caps, and the cone
-  // between them.
+  // The cone that touches both end spheres divides space into three regions: two caps, and the cone between
+  // them.
   const Vec3 axis = end_m - start_m;
   const double length2 = glm::dot(axis, axis);
   const double shrink = start_radius_m - end_radius_m;

@@ -29,7 +29,7 @@ double distance_to_segment_m(const Vec3& p, const Vec3& a, const Vec3& b) {
   return glm::length(p - a - ab * t);
 }
 
-/// Makes the seed for a point. Points on the right side are mirrored to the left first; `side` is the
+/// Makes the seed for a point. A point on the right side is mirrored to the left first; `side` is its
 /// original side.
 class Seeder {
  public:
@@ -43,7 +43,7 @@ class Seeder {
   WeightSeed seed() {
     const double along_m = glm::dot(p_ - arm_.shoulder_m, arm_.along);
     const Vec3 off = p_ - arm_.shoulder_m - arm_.along * along_m;
-    // Near the body, the arm begins at a plane that slants from the top of the shoulder to the armpit.
+    // Near the body, the arm begins at a sloping plane from the top of the shoulder to the armpit.
     const double start_m = 0.012 + 0.25 * glm::dot(off, arm_.outward);
     if (along_m > start_m && glm::length(off) < (along_m < 0.4 ? 0.095 : 0.16)) {
       if (glm::dot(p_ - arm_.wrist_m, arm_.along) > 0.0) {
@@ -51,8 +51,8 @@ class Seeder {
       }
       return arm(along_m);
     }
-    // The crease of the groin rises from the crotch to the hip bone. It is less steep at the back, under the
-    // glutes.
+    // The crease of the groin rises from the crotch to the hip bone. It rises less steeply at the back, under
+    // the glutes.
     const double steepness = glm::mix(0.62, 1.05, ramp(p_.z, -0.08, 0.05));
     const double crease_m = leg_.hip_m.y + steepness * (p_.x - leg_.hip_m.x);
     if (p_.y < crease_m && p_.y < 0.99) {
@@ -73,7 +73,7 @@ class Seeder {
     const double elbow_m = glm::length(arm_.elbow_m - arm_.shoulder_m);
     const double wrist_m = glm::length(arm_.wrist_m - arm_.shoulder_m);
     if (along_m < elbow_m) {
-      // The twist bone turns less than the arm when the arm twists, so it moves the end at the shoulder.
+      // When the arm twists, the twist bone turns less than the arm. So it moves the end at the shoulder.
       const double turned = ramp(along_m, 0.03, 0.20);
       return {{{bone("upperarm_twist_01"), 1.0 - turned}, {bone("upperarm"), turned}},
               glm::mix(0.042, 0.022, ramp(along_m, 0.05, 0.18))};
@@ -100,7 +100,7 @@ class Seeder {
       }
     }
     const bool is_thumb = owner_finger == 0;
-    // The flesh of the palm and the webs between the fingers extend beyond the knuckle joints.
+    // The flesh of the palm and the skin between the fingers extend beyond the knuckles.
     const bool in_palm = owner.find("_01") != std::string::npos && past(owner.c_str()) < 0.010;
     const double spread_m = is_thumb ? 0.0075 : 0.0052;
     if (in_palm || nearest_m > 0.008) {
@@ -123,7 +123,7 @@ class Seeder {
   }
 
   WeightSeed torso() const {
-    // The chin turns with the head, and the nape turns with the neck.
+    // The chin moves with the head, and the nape moves with the neck.
     const double head_m = p_.y - (1.560 - 0.45 * p_.z);
     const double neck_m = p_.y - (1.475 - 0.45 * p_.z) - 0.10 * p_.x;
     if (head_m > -0.03) {
@@ -166,7 +166,7 @@ using Table = std::vector<double>;
 // transition a smooth S curve.
 constexpr int steps = 2;
 constexpr int sweeps = 50;
-// Smaller weights are removed, so that each joint affects only a limited area.
+// Smaller weights are removed, so that each joint affects only a small area.
 constexpr double faintest = 0.012;
 
 Table seed_table(const std::vector<WeightSeed>& seeds, const Skeleton& skeleton) {
@@ -196,7 +196,7 @@ Table spread(const Table& from, const TriangleMesh& mesh, const std::vector<Weig
         }
         const Vec3 edge = mesh.positions_m[n] - mesh.positions_m[v];
         const double reach = std::min(seeds[v].spread_m, seeds[n].spread_m);
-        // In the plane, a vertex has about six neighbours. The mean of their values differs from the vertex's
+        // In a plane, a vertex has about six neighbours. The mean of their values differs from the vertex's
         // value by a quarter of L h².
         const double pull = 4.0 / static_cast<double>(neighbours[v].size()) * reach * reach /
                             glm::dot(edge, edge) / static_cast<double>(steps);

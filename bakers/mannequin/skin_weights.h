@@ -18,7 +18,7 @@ struct VertexWeights {
 
 /// Assigns to every vertex the bones of its part of the body, and then blurs these weights over the skin. The
 /// blur radius is about the thickness of the body at the vertex. The blur follows the surface, so weights
-/// never jump from finger to finger or from arm to chest.
+/// never spread from finger to finger or from arm to chest.
 std::vector<VertexWeights> make_skin_weights(const TriangleMesh& mesh, const Skeleton& skeleton);
 
 }  // namespace nook::mannequin

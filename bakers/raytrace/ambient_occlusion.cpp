@@ -115,9 +115,9 @@ float trace_surface_point(const RayScene& scene, const PosedSurface& surface, co
   return trace_point(scene, position, normalised(normal), patterns, unlimited, offset, random);
 }
 
-// Returns the AO of a hidden vertex with which interpolation comes closest to the AO of its visible
-// stand-ins, by least squares. `own` has the AO of all vertices. Other hidden vertices of a triangle are
-// taken to have the same unknown AO. Returns `least` if no stand-in is visible.
+// Returns the AO of a hidden vertex that makes interpolation come closest to the AO of its visible stand-ins,
+// by least squares. `own` contains the AO of all vertices. Other hidden vertices of a triangle are assumed to
+// have the same unknown AO. Returns `least` if no stand-in is visible.
 float shown_ao(const RayScene& scene, const PosedSurface& surface, std::span<const StandIns::Point> points,
                std::span<const float> own, float least, const HemispherePatterns& patterns, float offset,
                std::uint64_t random) {
@@ -139,9 +139,9 @@ float shown_ao(const RayScene& scene, const PosedSurface& surface, std::span<con
   return squares > 0 ? std::clamp(products / squares, 0.0f, 1.0f) : least;
 }
 
-// Returns points on the edges of each vertex at a quarter, half and three quarters of their length, and the
-// centroids of its triangles. The vertex is the first one of each point's triangle. The weight of a point is
-// the length of its edge, or the square root of its triangle's area for a centroid.
+// For each vertex, returns points at a quarter, half and three quarters of its edges, and the centroids of
+// its triangles. The vertex is the first one of each point's triangle. The weight of a point is the length of
+// its edge. For a centroid, it is the square root of the triangle's area.
 StandIns all_stand_ins(const SkinnedMesh& mesh) {
   std::vector<std::vector<StandIns::Point>> points(mesh.vertex_count());
   for (const auto& t : mesh.triangle) {
@@ -149,8 +149,8 @@ StandIns all_stand_ins(const SkinnedMesh& mesh) {
     const float size = std::sqrt(0.5f * length(cross(b - a, c - a)));
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::uint32_t v = t[corner], next = t[(corner + 1) % 3], last = t[(corner + 2) % 3];
-      // An inner edge belongs to two triangles. Each of them adds the edge in one direction, so a vertex gets
-      // it once.
+      // An inner edge belongs to two triangles, which contain it in opposite directions. Each triangle adds
+      // it for one vertex, so each vertex gets the edge once.
       const float edge = length(mesh.position[next] - mesh.position[v]);
       for (const float along : {0.25f, 0.5f, 0.75f})
         points[v].push_back({{{v, next, last}, {1 - along, along, 0}}, edge});
@@ -170,7 +170,7 @@ StandIns all_stand_ins(const SkinnedMesh& mesh) {
 std::vector<float> count_uses(const SkinnedMesh& mesh, std::span<const Pose> poses, const StandIns& all,
                               std::uint64_t seed, const Progress& progress) {
   constexpr std::uint32_t rays = 32;
-  constexpr std::size_t vertices_per_task = 32;  // a hidden vertex traces tens of points
+  constexpr std::size_t vertices_per_task = 32;  // one hidden vertex traces tens of points
   const float offset = ray_origin_offset(mesh.position);
   const HemispherePatterns patterns(rays, seed);
   const RayDevice device;

@@ -1,4 +1,4 @@
-// Traces ambient occlusion, the reference for all AO in Nook. It is the cosine-weighted visibility over the
+// Traces ambient occlusion, the reference for all AO in Nook. AO is the cosine-weighted visibility over the
 // hemisphere around a normal; 1 is open. Both sides of triangles occlude.
 #pragma once
 
@@ -28,31 +28,32 @@ struct Receivers {
 struct AoSettings {
   std::uint32_t rays = 64;  // per point
   std::uint64_t seed = 1;
-  float radius = std::numeric_limits<float>::infinity();  // metres; hits beyond it count as open
+  float radius = std::numeric_limits<float>::infinity();  // metres; hits beyond this distance count as open
   float origin_offset = 0;                                // metres along the normal
 };
 
-// Called from worker threads, one call at a time. Return false to stop.
+// Worker threads call the function, but never two at the same time. Return false to stop.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Returns the AO of every receiver against one soup. Threads work on blocks of receivers. The result does not
-// depend on the number of threads. `progress` counts receivers. Throws Failure(NOOK_ERROR_CANCELLED) if
-// `progress` returns false.
+// Returns the AO of every receiver in a scene of triangles. Threads work on blocks of receivers. The result
+// does not depend on the number of threads. `progress` counts receivers. Throws Failure(NOOK_ERROR_CANCELLED)
+// if `progress` returns false.
 std::vector<float> trace_ao(const TriangleSoup& occluders, const Receivers& receivers,
                             const AoSettings& settings, const Progress& progress = {});
 std::vector<float> trace_ao(const RayScene& scene, const Receivers& receivers, const AoSettings& settings,
                             const Progress& progress = {});
 
 // The AO of receivers, and the cosine-weighted mean direction of their open rays in world space. The wider
-// the opening, the shorter is this vector. Its length is 2/3 over a plane. It is zero if no ray is open.
+// the opening, the shorter the vector. Over an infinite plane, its length is 2/3. It is zero if no ray is
+// open.
 struct Openness {
   std::vector<float> ao;
   std::vector<Vec3> direction;
 };
-// Returns the same AO as trace_ao, bit for bit.
+// The AO is the same as from trace_ao, bit for bit.
 Openness trace_openness(const RayScene& scene, const Receivers& receivers, const AoSettings& settings);
 
-// Returns the number of receivers per task. A task takes about 10 ms, so a caller who stops does not wait
+// Returns the number of receivers per task. A task takes about 10 ms, so a caller that cancels waits no
 // longer than that.
 inline std::size_t receivers_per_task(std::uint32_t rays) {
   constexpr std::uint32_t most_rays = 1 << 16, most_receivers = 256;
@@ -71,8 +72,8 @@ struct AoTargets {
   static constexpr float scale = 1.0f / 65535.0f;
 };
 
-// A vertex is hidden in a pose if its traced AO is below this. Such a vertex is inside the body or in a fist.
-// Two open rays out of 128 reach this value.
+// A vertex is hidden in a pose if its traced AO is below this value. Such a vertex is inside the body or in a
+// fist. Two open rays of 128 are enough to reach the value.
 inline constexpr float hidden_below = 0.01f;
 
 // A point on a triangle. It moves with the triangle's vertices.
@@ -82,12 +83,12 @@ struct SurfacePoint {
 };
 
 // Points that stand in for hidden vertices. No camera sees a hidden vertex, but renderers interpolate its AO
-// over its triangles. Parts of these triangles may be visible, such as a rod whose ends are in joints, or a
-// leg under a hem. With the AO of the vertex, which is 0, these parts would be black.
+// over its triangles. Parts of these triangles may be visible, for example on a rod whose ends are inside
+// joints, or on a leg under a hem. With the vertex's own AO of 0, these parts would be black.
 struct StandIns {
   struct Point {
     SurfacePoint at;
-    float weight = 0;  // in sums over the visible points of a vertex: the size of the edge or the triangle
+    float weight = 0;  // weight among the visible points of a vertex: the size of the edge or the triangle
   };
   std::vector<std::uint32_t> first;  // index of the first point of each vertex, and the end; empty: no points
   std::vector<Point> points;
@@ -98,26 +99,26 @@ struct StandIns {
   }
 };
 
-// Looks for hidden vertices in at most 24 of the poses, and for the points on their edges and triangles that
-// are visible meanwhile. Keeps up to 4 points for each vertex. A vertex that is hidden only in other poses
-// gets no points. The same seed gives the same points on any number of threads.
+// Looks for hidden vertices in at most 24 of the poses, and for points on their edges and triangles that are
+// visible in the same poses. Keeps up to 4 points for each vertex. A vertex that is hidden only in other
+// poses gets no points. The same seed gives the same points on any number of threads.
 StandIns choose_stand_ins(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint64_t seed);
 
-// Distributes poses over all threads. Builds one BVH for each pose. The target of a hidden vertex is the AO
-// with which interpolation comes closest to its visible stand-ins (least squares), or its own AO if none is
-// visible. Pass stand-ins for targets that a model is fitted to, and none for the truth that errors are
-// measured against. The same seed gives the same targets on any number of threads. Throws
-// Failure(NOOK_ERROR_CANCELLED) if progress returns false.
+// Traces poses in parallel, with one BVH per pose. The target of a hidden vertex is the AO that makes
+// interpolation come closest to its visible stand-ins (least squares), or its own AO if no stand-in is
+// visible. Pass stand-ins when you fit a model to the targets. Pass none when you measure errors against
+// them. The same seed gives the same targets on any number of threads. Throws Failure(NOOK_ERROR_CANCELLED)
+// if progress returns false.
 AoTargets trace_character_ao(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint32_t rays,
                              std::uint64_t seed, const Progress& progress = {},
                              const StandIns& stand_ins = {});
 
-// Returns the expected squared error of such targets. It is half the mean squared difference between the
-// targets and a second, independent tracing of some of the poses.
+// Returns the expected squared error of these targets. It is half the mean squared difference between the
+// targets and a second, independent trace of some of the poses.
 double measure_noise_floor(const SkinnedMesh& mesh, std::span<const Pose> poses, const AoTargets& targets,
                            std::uint32_t rays, std::uint64_t seed, const StandIns& stand_ins = {});
 
-// Returns the offset of ray origins for a character: 1e-4 of the diagonal of its rest bounding box.
+// Returns the offset of ray origins for a character: 1e-4 of the diagonal of its bounding box at rest.
 float ray_origin_offset(std::span<const Vec3> rest_positions);
 
 }  // namespace nook::bake

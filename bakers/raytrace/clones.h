@@ -1,6 +1,6 @@
-// The compiler makes one clone of a function for each level of instruction_set.h. A call uses the clone for
-// the level that the process bakes with. The attribute target_clones would do the same, but it chooses when
-// the program is loaded, and this choice cannot be pinned.
+// Compiles a function once for each level of instruction_set.h. A call uses the clone for the level that the
+// process bakes with. The attribute target_clones is similar, but it chooses the clone when the program is
+// loaded, and you cannot pin its choice.
 #pragma once
 
 #include "bakers/raytrace/instruction_set.h"

@@ -31,7 +31,7 @@ Environment::Environment(std::uint32_t width, std::uint32_t height, std::vector<
 
 std::size_t Environment::texel_at(Vec3 d) const {
   const float u = 0.5f + std::atan2(d.z, d.x) * float(0.5 / pi);
-  // Does not use acos(y), because it would lose half of its digits near the poles.
+  // acos(y) would lose half of its digits near the poles.
   const float v = std::atan2(std::sqrt(d.x * d.x + d.z * d.z), d.y) * float(1 / pi);
   const auto column = std::min(std::uint32_t(std::max(u, 0.0f) * float(width_)), width_ - 1);
   const auto row = std::min(std::uint32_t(std::max(v, 0.0f) * float(height_)), height_ - 1);

@@ -11,12 +11,12 @@
 
 namespace nook::bake {
 
-// The maximum radiance of a map's texel and of an emissive surface. With this limit, sums of squares over any
-// number of paths stay far below the maximum of a float.
+// The maximum radiance of a map's texel and of an emissive surface. It keeps sums of squares over any number
+// of paths far below the maximum of a float.
 inline constexpr double max_radiance = 1e15;
 
 // Rows go from +y to -y, and columns go around the y axis. The middle column looks along +x. The column a
-// quarter of the width to the right of it looks along +z. Radiance is constant over a texel, so integrals
+// quarter of the width further to the right looks along +z. Radiance is constant over a texel, so integrals
 // over the map are sums over its texels.
 class Environment {
  public:
@@ -58,8 +58,8 @@ struct LightSample {
 // integral of luminance + uniform / (4 pi).
 class LightSampler {
  public:
-  // The environment must outlive the sampler. uniform_share is in [0, 1]. A black map is sampled uniformly.
-  // The same holds for a map that is so dark that its density cannot be a float.
+  // The environment must outlive the sampler. uniform_share is in [0, 1]. Directions are uniform if the map
+  // is black, or so dark that its density does not fit into a float.
   explicit LightSampler(const Environment& environment, float uniform_share = 0);
 
   // Takes four numbers in [0, 1). `choice` is a double, so that every texel of a large map can be chosen.

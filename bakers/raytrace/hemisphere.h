@@ -11,7 +11,7 @@
 namespace nook::bake {
 
 // Many independent patterns of `rays` directions around +z. Neighbouring vertices and poses use different
-// patterns, so that they do not share noise. Directions are cosine-weighted, so the visibility is the plain
+// patterns, so that their noise is independent. Directions are cosine-weighted, so visibility is the plain
 // mean over a pattern.
 class HemispherePatterns {
  public:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* level_names[] = {"x86-64", "x86-64-v2", "x86-64-v3", "x86-64-v4"};
 
-// Tests the features that the clones and Embree use. No processor of a lower level has all of them.
+// Tests the features that the clones and Embree use. A processor of a lower level lacks at least one of them.
 IsaLevel best_level() {
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
       __builtin_cpu_supports("avx512cd") && __builtin_cpu_supports("avx512dq") &&
@@ -62,7 +62,7 @@ IsaLevel isa_level_of(std::string_view name) {
 }
 
 IsaLevel isa_level() {
-  // Stored in a static variable, because kernels call this in their loops.
+  // Stored in a static variable, because inner loops call this function.
   static const IsaLevel level = [] {
     const char* const pinned = std::getenv(isa_variable);
     return pinned && *pinned ? isa_level_of(pinned) : best_level();

@@ -20,12 +20,12 @@ struct LitTriangles {
   std::vector<std::array<TexturePoint, 2>> uv = {};  // per vertex; empty if no surface has a texture
 };
 
-// A surface at one point.
+// The colours of a surface at one point.
 struct SurfaceColours {
   Vec3 base_colour, emission;
 };
 
-// You may trace from any thread. The scene cannot be moved, because its sampler refers to its environment.
+// You can trace from any thread. You cannot move the scene, because its sampler refers to its environment.
 class LitScene {
  public:
   LitScene(LitTriangles triangles, Environment environment);

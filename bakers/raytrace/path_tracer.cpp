@@ -17,7 +17,7 @@ namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
 constexpr std::uint32_t certain_bounces = 3;   // number of bounces before Russian roulette starts
-constexpr float most_likely_survival = 0.95f;  // below 1, so that paths between white walls end too
+constexpr float most_likely_survival = 0.95f;  // below 1, so that paths between white walls end
 
 float largest(Vec3 v) {
   return std::max({v.x, v.y, v.z});
@@ -38,8 +38,8 @@ Vec3 direct_radiance(const LitScene& scene, Vec3 radiance, DirectLight direct) {
   return radiance;
 }
 
-// Samples a direction by luminance, and returns the environment's light from there at a surface. The light is
-// weighted by the balance heuristic (Veach 1997) against the cosine-weighted density of the same direction.
+// Samples a direction by luminance, and returns the irradiance that the environment's light from there gives
+// a surface. The balance heuristic (Veach 1997) combines this sample with cosine-weighted samples.
 Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectLight direct, Random& random) {
   const double choice = random.unit_double();
   const float alias = random.unit(), u = random.unit(), v = random.unit();
@@ -50,8 +50,8 @@ Vec3 light_by_luminance(const LitScene& scene, Vec3 origin, Vec3 normal, DirectL
   return radiance * (cosine / (light.density + cosine / pi));
 }
 
-// Estimates the irradiance at a point with one path that starts along `direction`, which is a cosine-weighted
-// sample.
+// Estimates the irradiance at a point with one path that starts along `direction`. `direction` must be a
+// cosine-weighted sample.
 Vec3 irradiance_path(const LitScene& scene, Vec3 position, Vec3 normal, Vec3 direction,
                      const PathSettings& settings, Random& random) {
   Vec3 irradiance, share{1, 1, 1};

@@ -1,4 +1,4 @@
-// Traces paths in diffuse scenes without bias. It is the reference for all light probes.
+// Traces paths in diffuse scenes. The result is unbiased, and is the reference for all light probes.
 #pragma once
 
 #include <cstdint>
@@ -12,8 +12,8 @@
 
 namespace nook::bake {
 
-// Selects which of the environment's light counts if it reaches the receiving point directly. Light that
-// surfaces reflect always counts, including light from suns. Light that surfaces emit always counts too.
+// Selects which part of the environment's light counts if it reaches the receiving point directly. Light that
+// surfaces reflect always counts, including sunlight. Light that surfaces emit always counts too.
 enum class DirectLight : std::uint8_t {
   none = 0,
   sky = 1,  // the environment without its suns, see environment.h
@@ -30,7 +30,7 @@ struct PathSettings {
 };
 
 // Returns one estimate of the radiance that arrives at a point from a unit direction. settings.direct selects
-// which of the map's direct light is included.
+// which part of the map's direct light is included.
 Vec3 trace_radiance(const LitScene& scene, Vec3 origin, Vec3 direction, const PathSettings& settings,
                     Random& random);
 

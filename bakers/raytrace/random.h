@@ -1,4 +1,4 @@
-// Seeded random numbers that are the same on every machine, unlike the standard distributions.
+// Seeded random numbers. They are the same on every machine, unlike those from the standard distributions.
 #pragma once
 
 #include <cmath>
@@ -9,7 +9,7 @@
 
 namespace nook::bake {
 
-// Generates 64 random bits by mixing the bits of a counter.
+// Makes 64 random bits by mixing the bits of a counter.
 class MixedCounter {
  public:
   explicit MixedCounter(std::uint64_t seed) : counter_(mix_bits(seed)) {}
@@ -19,7 +19,7 @@ class MixedCounter {
   std::uint64_t counter_;
 };
 
-// A stream of random numbers from a generator of 64 random bits. It depends only on the seed.
+// A stream of random numbers that depends only on the seed. The generator gives 64 random bits at a time.
 template <class Generator>
 class RandomFrom {
  public:

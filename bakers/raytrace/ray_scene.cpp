@@ -23,7 +23,7 @@ void set_floating_point_mode(std::uint64_t mode) {
 
 #elif defined(__aarch64__) || defined(_M_ARM64)
 
-// The bit FPCR.FZ. GCC and Clang have no header for this register, so it is accessed by inline assembly.
+// The bit FPCR.FZ. GCC and Clang have no header for this register, so we use inline assembly.
 constexpr std::uint64_t flush_bits = std::uint64_t(1) << 24;
 
 std::uint64_t floating_point_mode() {

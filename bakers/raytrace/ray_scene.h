@@ -11,10 +11,10 @@
 
 namespace nook::bake {
 
-// Treats denormals as zero in threads that trace.
+// While an object of this class exists, its thread treats denormals as zero.
 
-// Keep one of these objects alive on every thread that traces, because Embree is much slower with denormals.
-// The destructor restores the caller's mode. On processors other than x86 and ARM64, this does nothing.
+// Keep one object on every thread that traces, because Embree is much slower with denormals. The destructor
+// restores the caller's mode. The class does nothing on processors other than x86 and ARM64.
 class FlushDenormals {
  public:
   FlushDenormals();
@@ -42,7 +42,7 @@ struct TriangleSoup {
 // The first hit of a ray.
 struct RayHit {
   float distance = 0;  // in units of the direction's length; infinite if there is no hit
-  Vec3 normal;         // geometric normal, unit length, towards the ray's origin
+  Vec3 normal;         // geometric normal, unit length, on the side of the ray's origin
   std::uint32_t triangle = ~0u;
   float u = 0, v = 0;        // barycentric weights of the triangle's second and third vertex
   bool from_behind = false;  // true if the ray hit the side from which the vertices appear clockwise
@@ -62,21 +62,21 @@ class RayDevice {
   RTCDeviceTy* handle_;
 };
 
-// Triangles with their BVH. There may be zero triangles. You may trace from any thread that has a
-// FlushDenormals.
+// Triangles with their BVH. The number of triangles may be 0. You can trace from any thread that has a
+// FlushDenormals object.
 class RayScene {
  public:
   explicit RayScene(const TriangleSoup& soup);
   RayScene(const RayDevice& device, std::span<const Vec3> positions,
            std::span<const std::array<std::uint32_t, 3>> triangles);
-  // A scene with one copy of `original` for each offset. Hits have the triangle indices of `original`.
+  // Makes a scene with one copy of `original` for each offset. Hits have the triangle indices of `original`.
   RayScene(const RayScene& original, std::span<const Vec3> offsets);
   ~RayScene();
   RayScene(const RayScene&) = delete;
   RayScene& operator=(const RayScene&) = delete;
 
   // Ignores hits at distances up to and including `beyond`, in units of the direction's length. Both sides of
-  // triangles count.
+  // triangles can be hit.
   RayHit nearest(Vec3 origin, Vec3 direction, float beyond = 0) const;
   bool occluded(Vec3 origin, Vec3 direction) const;  // true if any triangle is hit at any distance
 
@@ -92,7 +92,7 @@ class RayScene {
   RTCSceneTy* scene_;
 };
 
-// The bounding box of points.
+// The bounding box of a set of points.
 
 struct Bounds {
   Vec3 low, high;

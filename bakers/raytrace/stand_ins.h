@@ -1,4 +1,4 @@
-// Chooses stand-ins with progress, for bakes. The choice takes as long as tracing some tens of poses.
+// Chooses stand-ins and reports progress, for bakes. The choice takes as long as tracing some tens of poses.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace nook::bake {
 
-// Chooses the same points as without `progress`. While it looks for them, it tells that 0 of the poses are
-// done, because the tracing follows. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
+// Chooses the same points as the overload without `progress`. Meanwhile, it reports that 0 poses are done,
+// because the poses are traced later. Throws Failure(NOOK_ERROR_CANCELLED) if progress returns false.
 StandIns choose_stand_ins(const SkinnedMesh& mesh, std::span<const Pose> poses, std::uint64_t seed,
                           const Progress& progress);
 

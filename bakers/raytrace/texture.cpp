@@ -13,8 +13,8 @@ float linear_of_srgb(float value) {
   return value <= 0.04045f ? value / 12.92f : std::pow((value + 0.055f) / 1.055f, 2.4f);
 }
 
-// Wraps a texture coordinate so that it is at most two widths away from the first repetition. Then it fits
-// into an integer.
+// Wraps a texture coordinate into [0, 2), so that it fits into an integer. Two repetitions also contain a
+// mirrored one.
 float near_first(float u) {
   return u - 2 * std::floor(u / 2);
 }

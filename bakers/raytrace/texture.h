@@ -21,8 +21,8 @@ class Texture {
   // alpha. `width` and `height` must be at least 1.
   Texture(std::uint32_t width, std::uint32_t height, std::vector<std::uint8_t> rgba);
 
-  // Texels are at the centres of equal cells. The look-up is bilinear in linear light, or takes the nearest
-  // texel.
+  // Texels are at the centres of equal cells. The look-up interpolates linear colours bilinearly, or takes
+  // the nearest texel.
   TextureColour at(const TextureUse& use, TexturePoint vertex_uv) const;
 
  private:

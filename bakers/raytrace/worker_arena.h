@@ -1,4 +1,4 @@
-// Limits the number of threads of one piece of work, independently of the rest of the process.
+// Limits the number of threads of one piece of work. Other work of the process is not affected.
 #pragma once
 
 #include <tbb/task_arena.h>
@@ -11,8 +11,7 @@
 
 namespace nook::bake {
 
-// Far above the number of cores of any machine. The limit prevents a hostile value from allocating all
-// memory.
+// Far above the number of cores of any machine. The limit keeps a bad value from using up all memory.
 constexpr std::uint32_t max_threads = 1024;
 
 // Throws if the field `threads` of a descriptor is out of range.
@@ -20,7 +19,7 @@ inline void need_threads(std::uint32_t threads) {
   check_at_most("desc.threads", threads, max_threads);
 }
 
-// 0 threads means all cores. The calling thread is one of them.
+// Runs `body` on this many threads, one of which is the calling thread. 0 means all cores.
 template <class Body>
 void run_with_threads(std::size_t threads, Body&& body) {
   tbb::task_arena arena(threads == 0 ? tbb::task_arena::automatic : int(threads));
