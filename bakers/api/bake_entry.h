@@ -1,5 +1,5 @@
 // Every C function that can fail runs its body through these functions. They convert an exception to a result
-// code and the last message of this thread.
+// code and to the last message of this thread.
 #pragma once
 
 #include <utility>

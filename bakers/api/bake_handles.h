@@ -1,5 +1,5 @@
-// The objects behind the public handles, and the functions behind nook_bake_start() and nook_bake_key(), for
-// each descriptor.
+// The objects behind the public handles. For each descriptor, also the functions behind nook_bake_start() and
+// nook_bake_key().
 #pragma once
 
 #include <nook/nook_bake.h>
@@ -13,7 +13,7 @@
 
 struct nook_bake_character_s {
   std::shared_ptr<const nook::bake::ImportedCharacter> character;  // shared with jobs
-  nook::bake::MeshSelection meshes;                                // of its source
+  nook::bake::MeshSelection meshes;                                // which meshes of its source it uses
 };
 
 struct nook_bake_job_s {
@@ -22,8 +22,8 @@ struct nook_bake_job_s {
 
 namespace nook::bake::api {
 
-// The functions that implement one kind of bake. Both read the descriptor, whose type has already been
-// checked. Both throw Failure.
+// The functions that implement one kind of bake. Both read the descriptor, whose type the caller has checked.
+// Both throw Failure.
 struct Bake {
   nook_bake_job_s* (*start)(const void* desc) = nullptr;
   BakeIdentity (*identify)(const void* desc) = nullptr;
@@ -39,8 +39,8 @@ nook_bake_job_s* start_job(const Desc& d, BakeJob::Bake bake) {
 }
 
 // Returns null pointers if `type` is not a bake. The definition in bake_starters.cpp supports every bake. A
-// library that only bakes characters links the definition in character_starters.cpp instead, so that it links
-// no other baker.
+// library that only bakes characters links the definition in character_starters.cpp instead, so that it does
+// not link the other bakers.
 Bake bake_of(std::uint32_t type);
 
 }  // namespace nook::bake::api

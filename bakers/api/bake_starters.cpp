@@ -1,5 +1,5 @@
-// Starts and identifies all bakes except the bake of a character, which is in job.cpp. Each job owns the data
-// that it reads.
+// Starts all bakes and computes their keys, except for characters, which are in job.cpp. Each job owns the
+// data that it reads.
 #include <nook/experimental/nook_bake_materials.h>
 #include <nook/nook_bake.h>
 

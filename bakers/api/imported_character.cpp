@@ -37,11 +37,11 @@ void need_index(const char* name, std::size_t index, std::size_t count) {
                   index, count);
 }
 
-// If a path is a pipe without a writer, opening it would block for ever without a message.
+// If a path is a pipe without a writer, opening it would wait forever without a message.
 void require_regular_file(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
-  // The importer reports a good message for a missing file or a folder, so they are not rejected here.
+  // Does not reject missing files and folders here, because the importer reports them with a good message.
   if (!std::filesystem::exists(status) || std::filesystem::is_directory(status) ||
       std::filesystem::is_regular_file(status))
     return;

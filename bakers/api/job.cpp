@@ -1,5 +1,5 @@
-// Starts and identifies a bake by the type of its descriptor, bakes a character's model, and creates and
-// destroys jobs.
+// Starts the bake that a descriptor's type selects and computes its key, bakes a character's model, and
+// creates and destroys jobs.
 #include <nook/experimental/nook_bake_key.h>
 #include <nook/nook_bake.h>
 

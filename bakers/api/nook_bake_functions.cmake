@@ -1,12 +1,12 @@
-# Functions that bake assets when a project is built, with the tool nook::tool. A bake runs again when one of
-# its input files or the tool changes. docs/guide/pipeline.md has examples.
+# Functions that bake assets with nook::tool when you build a project. A bake runs again when one of its input files or
+# the tool changes. docs/guide/pipeline.md has examples.
 #
 #   nook_bake_character(TARGET FILE hero.glb [settings])
 #   nook_bake_bent(TARGET FILE hero.glb MODEL body.nook OUTPUT hero.nook [settings])
 #   nook_bake_lod(TARGET FILE hero_lod1.glb MODEL hero.nook [settings])
 #
-# Building TARGET bakes the files. If TARGET is a target of this folder, such as a program, the files are added
-# to its sources. For any other name, the function makes a custom target that belongs to `all`.
+# Building TARGET bakes the files. If TARGET is a target of this folder, such as a program, the files are added to its
+# sources. Otherwise, the function creates a custom target with this name that belongs to `all`.
 #
 #   FILE     the .glb or .gltf file
 #   MODEL    the baked character that the bake starts from; it may be the OUTPUT of another call in this folder
@@ -22,7 +22,7 @@
 cmake_policy(PUSH)
 cmake_policy(VERSION 3.20...3.25)
 
-# Makes the paths in OPTIONS absolute. Relative paths in the depfile would be relative to another folder.
+# Makes the paths in OPTIONS absolute, because relative paths in the depfile would refer to another folder.
 function(nook_bake_absolute_options out)
   set(options "")
   set(is_file FALSE)
@@ -42,8 +42,7 @@ function(nook_bake_absolute_options out)
   set(${out} "${options}" PARENT_SCOPE)
 endfunction()
 
-# The part that all kinds of bakes share. INPUTS are the positional arguments of the command, in the command's
-# order.
+# The part that all kinds of bakes share. INPUTS are the positional arguments of the command, in this order.
 function(nook_bake_command kind target output inputs)
   cmake_parse_arguments(PARSE_ARGV 4 bake "" "REPORT;CACHE;ISA" "OPTIONS")
   set(call "nook_bake_${kind}(${target})")
@@ -53,7 +52,7 @@ function(nook_bake_command kind target output inputs)
   endif()
   foreach(option IN LISTS bake_OPTIONS)
     if(option MATCHES "^(-o|--output|--depfile|--report|--cache|--isa|--print-key)(=|$)")
-      message(FATAL_ERROR "${call}: OPTIONS holds ${CMAKE_MATCH_1}, which the function gives to the bake itself; use OUTPUT, "
+      message(FATAL_ERROR "${call}: OPTIONS holds ${CMAKE_MATCH_1}, which the function sets itself; use OUTPUT, "
                           "REPORT, CACHE or ISA")
     endif()
   endforeach()
@@ -77,7 +76,7 @@ function(nook_bake_command kind target output inputs)
     list(APPEND options --isa "${bake_ISA}")
   endif()
 
-  # The tool does not make the output folder.
+  # The tool does not create the output folder.
   cmake_path(GET output PARENT_PATH folder)
   cmake_path(GET output FILENAME name)
   file(MAKE_DIRECTORY "${folder}")
@@ -106,7 +105,7 @@ macro(nook_bake_parse kind target takes_model)
     message(FATAL_ERROR "${bake_call} does not know: ${bake_UNPARSED_ARGUMENTS}; options of `nook bake ${kind}` follow OPTIONS")
   endif()
   if(bake_KEYWORDS_MISSING_VALUES)
-    message(FATAL_ERROR "${bake_call}: there is no value behind ${bake_KEYWORDS_MISSING_VALUES}")
+    message(FATAL_ERROR "${bake_call}: a value is missing after ${bake_KEYWORDS_MISSING_VALUES}")
   endif()
   if(NOT bake_FILE)
     message(FATAL_ERROR "${bake_call}: FILE is missing; give the .glb or .gltf file")

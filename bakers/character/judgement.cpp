@@ -21,8 +21,8 @@ constexpr std::size_t wished_poses = 60, least_of_clip = 4, most_poses = 240;
 // Rays per vertex, over all poses together. A standard bake fits to about ten times as many rays.
 constexpr std::size_t most_rays = 6000, least_rays = 2000;
 constexpr double visible_truth = double(hidden_below);
-// A clip counts as worse than a static bake only if its squared error is larger by at least this value, which
-// is the square of one step of an 8-bit image.
+// A clip counts as worse than a static bake only if its squared error is larger by at least this value. The
+// value is the square of one step of an 8-bit image.
 constexpr double least_excess = 1.0 / (255.0 * 255.0);
 constexpr double torn_limit = 5e-4;
 

@@ -48,9 +48,9 @@ std::vector<fs::path> images_below(const fs::path& folder) {
 
 void check_image_size(const char* what, int width, int height, std::size_t max_texels,
                       std::uintmax_t file_bytes) {
-  // No format packs more texels into a byte. Deflate packs at most 1032 bytes, which are 8256 one-bit texels.
-  // A JPEG needs at least one bit for a block of 64 texels. An EXR file packs at most 11,000 texels of one
-  // colour.
+  // The limit is above what any format can store in a byte. Deflate reaches at most 1032 bytes, which are
+  // 8256 one-bit texels. A JPEG needs at least one bit for a block of 64 texels. An EXR file reaches at most
+  // 11,000 texels of one colour.
   constexpr std::uintmax_t max_texels_per_byte = std::uintmax_t{1} << 14;
   if (width < 1 || height < 1 || std::size_t(width) > max_texels / std::size_t(height))
     throw Failure(NOOK_ERROR_BAD_FILE,
@@ -71,7 +71,8 @@ constexpr std::uint32_t is_tiled = 0x200, is_multipart = 0x1000;  // bits of the
 constexpr std::int64_t max_columns = 1 << 16;
 constexpr std::size_t max_name_length = 255;  // of an attribute's name and of its type's name, bytes
 
-// Reads a little-endian number, like all numbers of the format. Returns 0 beyond the end of the file.
+// Reads a little-endian number; all numbers of the format are little-endian. Returns 0 beyond the end of the
+// file.
 std::uint32_t read_u32(std::istream& file) {
   unsigned char bytes[4] = {};
   file.read(reinterpret_cast<char*>(bytes), 4);
@@ -88,7 +89,7 @@ std::string read_name(std::istream& file) {
   return name;
 }
 
-// Types with a fixed size in bytes. OpenEXR reads this size, and ignores the size that the attribute
+// Types with a fixed size in bytes. OpenEXR reads this many bytes and ignores the size that the attribute
 // declares.
 struct FixedType {
   std::string_view name;
@@ -105,7 +106,7 @@ constexpr std::array fixed_types{
     FixedType{"v3d", 24},     FixedType{"v3f", 12},        FixedType{"v3i", 12}};
 
 // Returns the number of bytes that OpenEXR reads for a value of this type at the file's position. `said` is
-// the size that the attribute declares. OpenEXR uses it for types that have no fixed size.
+// the size that the attribute declares, which OpenEXR uses only for types without a fixed size.
 std::uint64_t value_size(std::istream& file, const std::string& type, std::uint32_t said) {
   for (const FixedType& fixed : fixed_types)
     if (type == fixed.name) return fixed.size;
@@ -119,7 +120,7 @@ std::uint64_t value_size(std::istream& file, const std::string& type, std::uint3
   return file ? std::uint64_t(file.tellg() - at) : UINT64_MAX;
 }
 
-// Skips an attribute whose name was already read.
+// Skips an attribute whose name has already been read.
 void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t file_bytes,
                     const char* what) {
   const std::string type = read_name(file);
@@ -131,7 +132,7 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
         NOOK_ERROR_BAD_FILE,
         "%.250s is a damaged EXR file: its attribute \"%.60s\" should have %u bytes, but only %ju follow",
         what, name.c_str(), size, file_bytes - at);
-  // Otherwise, OpenEXR would continue at a different position than this function, and interpret the bytes
+  // If the sizes differ, OpenEXR continues at another position than this function, and interprets the bytes
   // there as a size.
   if (value_size(file, type, size) != size)
     throw Failure(NOOK_ERROR_BAD_FILE,
@@ -142,9 +143,9 @@ void skip_attribute(std::istream& file, const std::string& name, std::uintmax_t 
   file.seekg(std::streamoff(at + size));
 }
 
-// Checks the rows and columns that an attribute with the image's extent declares. Its name was already read.
-// A scanline file stores an 8-byte offset for each block of at most 256 rows, so the file size limits the
-// number of rows.
+// Checks the rows and columns that an attribute with the image's extent declares. The attribute's name has
+// already been read. A scanline file stores an 8-byte offset for each block of at most 256 rows, so the file
+// size limits the number of rows.
 void check_extent(std::istream& file, std::uint32_t version, std::uintmax_t file_bytes, const char* what) {
   const auto at = file.tellg();
   read_name(file);  // its type

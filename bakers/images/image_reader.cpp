@@ -26,7 +26,7 @@ constexpr std::array magics{Magic{"\x89PNG"sv, "png"},
                             Magic{"BM"sv, "bmp"}};
 constexpr std::size_t longest_magic = 10;
 
-// Netpbm images: P1 to P6, and the two float formats, Pf and PF.
+// Netpbm images: P1 to P6, and the float formats Pf and PF.
 constexpr std::string_view netpbm_kinds = "123456fF";
 
 // The formats that a file's extension can select.

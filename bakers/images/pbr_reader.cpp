@@ -38,7 +38,7 @@ std::vector<std::string> words_of(std::string_view name) {
 
 struct Word {
   std::string_view text;
-  std::optional<PbrMap> map;  // none: a map that we do not use
+  std::optional<PbrMap> map;  // none: a kind of map that we do not use
 };
 
 constexpr std::array words{Word{"albedo", PbrMap::base_colour},
@@ -96,7 +96,7 @@ std::string list_of(std::span<const std::string> names) {
   return list + (names.size() > most ? ", ..." : "");
 }
 
-// The candidate file for each kind of map, before the choice between kinds.
+// A candidate file for each kind of map, before we choose between kinds.
 struct Places {
   std::optional<std::size_t> base_colour, normal_up, normal_down, roughness, gloss, metalness, height, packed;
 
@@ -128,7 +128,7 @@ std::optional<PbrName> parse_pbr_name(std::string_view name) {
   std::optional<PbrMap> map;
   bool green_down = false;
   std::vector<std::string> parts = words_of(name);
-  // A preview picture such as "Metal032_1K.png" begins with the name of the material. Its "metal" does not
+  // A preview picture such as "Metal032_1K.png" begins with the name of the material. There, "metal" does not
   // mean a metalness map.
   if (parts.size() > 1 && parts.front() == "metal") parts.erase(parts.begin());
   for (const std::string& word : parts) {
@@ -174,10 +174,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// 8192 x 8192. Three channels of floats then take 0.8 GB.
+// 8192 x 8192 texels. Three channels of floats take 0.8 GB.
 constexpr std::size_t most_texels = std::size_t{1} << 26;
-// The minimum cosine between a normal and the plane's normal. Normals that are tilted further are noise in
-// the image.
+// The minimum cosine between a normal and the plane's normal. We treat a larger tilt as noise of the image.
 constexpr float least_upright = 0.1f;
 
 struct MapImage {
@@ -187,7 +186,7 @@ struct MapImage {
   std::size_t channels = 0;  // 1 or 3
   std::vector<float> texels;
 
-  // Returns a channel of a texel. A single channel is used for all three.
+  // Returns a channel of a texel. An image with one channel uses it for all three.
   float at(std::size_t texel, std::size_t channel) const {
     return texels[texel * channels + (channels == 3 ? channel : 0)];
   }

@@ -32,20 +32,20 @@ struct PbrName {
 };
 
 // Splits a name into words at punctuation, at digits, and where an upper-case letter follows a lower-case
-// one. The last word that names a map decides, so that "rough_wood_diff" is a base colour. Returns nothing if
-// no word names a map, or if the map is one that we do not use: ambient occlusion, opacity, emission or
+// one. If several words name a map, the last one counts, so "rough_wood_diff" is a base colour. Returns
+// nothing if no word names a map, or if we do not use the map: ambient occlusion, opacity, emission or
 // specular.
 std::optional<PbrName> parse_pbr_name(std::string_view file_name);
 
-// For each map, the index of its name in the list, or nothing if the map is missing.
+// For each map, the index of its file name in the list, or nothing if the map is missing.
 struct PbrFiles {
   std::size_t base_colour = 0;
   std::optional<std::size_t> normal, roughness, metalness, height, packed;
   bool roughness_is_gloss = false, green_down = false;
 };
 
-// Chooses the file for each map. An OpenGL normal map is preferred to a Direct3D one, roughness to gloss, and
-// a separate map to a packed one. Throws Failure(NOOK_ERROR_BAD_FILE) if two files are for the same map (the
+// Chooses the file for each map. Prefers an OpenGL normal map to a Direct3D one, roughness to gloss, and a
+// separate map to a packed one. Throws Failure(NOOK_ERROR_BAD_FILE) if two files are for the same map (the
 // message names both), or if there is no base colour (the message lists the names).
 PbrFiles arrange_pbr_names(std::span<const std::string> file_names);
 
@@ -54,21 +54,20 @@ struct PbrFolder {
   std::vector<std::string> file_names;  // names of the images that were read
 };
 
-// Reads every image of the folder whose name names a map. Does not search subfolders. The base colour is sRGB
-// in integer images, and linear in float images. Other maps are always linear. Colour, roughness and
-// metalness are clamped to 0 to 1.
+// Reads every image of the folder whose name is recognised as a map. Does not search subfolders. The base
+// colour is sRGB in integer images, and linear in float images. Other maps are always linear. Colour,
+// roughness and metalness are clamped to 0 to 1.
 //
-// Images may have any size, but must be square. They are resampled to a grid of side x side points by
-// averaging over the cells of the grid (periodic_tile.h). The averaged quantities are colours, heights,
-// slopes of normals, and squared GGX widths. The first image row is the top of the tile. In the tile, y
-// points up.
+// Images may have any size, but must be square. They are resampled to a grid of side x side points: the
+// texels within each cell of the grid are averaged (periodic_tile.h). We average colours, heights, slopes of
+// normals, and squared GGX widths. The first image row is the top of the tile. In the tile, y points up.
 //
-// Throws Failure(NOOK_ERROR_BAD_FILE) that names the file if an image is unreadable or not square, has more
-// than 2^26 texels, has too few channels, or has a texel that is not finite. Also throws it if the folder
-// cannot be read, or if its file names do not form a set of maps.
+// Throws Failure(NOOK_ERROR_BAD_FILE) if an image is unreadable or not square, has more than 2^26 texels, has
+// too few channels, or has a texel that is not finite. The message names the file. Also throws it if the
+// folder cannot be read, or if its file names do not form a set of maps.
 PbrFolder read_pbr_folder(const std::filesystem::path& folder, std::uint32_t side);
 
-// Reads a single height map. Heights are in units of a height scale. The index of a point is y * side + x.
+// Reads a single height map. Heights are relative to a height scale. The index of a point is y * side + x.
 std::vector<float> read_height_map(const std::filesystem::path& file, std::uint32_t side);
 
 // Reads a single height map at its own resolution. All other maps of the result are empty.

@@ -48,7 +48,7 @@ BodyView::BodyView(std::span<const std::array<std::uint32_t, 3>> triangles,
   const Bounds box = bounds_of(positions_ws);
   const Vec3 size = box.high - box.low;
   const float metres_per_pixel =
-      // The minimum of 1e-6 is for a body that is a single point.
+      // 1e-6 is for a body whose vertices all lie at one point.
       margin * std::max({size.x / float(width), size.y / float(height), 1e-6f});
   cast(positions_ws,
        {0.5f * (box.low + box.high), {0, 0, side == BodySide::front ? 1.0f : -1.0f}, metres_per_pixel});
@@ -134,7 +134,7 @@ void write_png(const std::filesystem::path& path, const Picture& picture) {
 namespace nook::bake::probe {
 namespace {
 
-constexpr float mean_shade = 0.35f;  // linear value at which the picture shows the map's mean luminance
+constexpr float mean_shade = 0.35f;  // the map's mean luminance is drawn with this linear value
 
 // Compresses bright values, so that a sun keeps its shape, and applies the sRGB curve.
 float display(float value) {
@@ -165,7 +165,7 @@ Picture map_picture(const Environment& map, const Basis& basis, std::span<const 
   const Channels light = integrate(map, {}).radiance;
   const float mean =
       luminance({float(light[0]), float(light[1]), float(light[2])}) / (4 * std::numbers::pi_v<float>);
-  // A mean m with exposure e becomes m e / (1 + m e) = mean_shade.
+  // With an exposure e, a mean m becomes about m e / (1 + m e). This should equal mean_shade.
   const float exposure = mean > 0 ? mean_shade / ((1 - mean_shade) * mean) : 1.0f;
   std::array<Picture, 4> panels;
   const int width = int(panel_width), height = width / 2;

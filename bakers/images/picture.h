@@ -1,4 +1,4 @@
-// Draws a body by primary rays, coloured by a value at each vertex, for example the error.
+// Draws a body with ray casting, coloured by a value at each vertex, for example the error.
 #pragma once
 
 #include <array>
@@ -33,8 +33,8 @@ struct BodyCamera {
   float metres_per_pixel = 1;
 };
 
-// Stores the triangle that each sample of an orthographic picture sees. The constructor casts the rays. You
-// can then draw the view several times, with different values.
+// Stores the triangle that is visible at each sample of an orthographic picture. The constructor casts the
+// rays. You can then draw the view several times, with different values.
 class BodyView {
  public:
   // The body fills the picture except for a margin. The front and back views of a body have the same scale.
@@ -44,12 +44,12 @@ class BodyView {
   BodyView(std::span<const std::array<std::uint32_t, 3>> triangles, std::span<const Vec3> positions_ws,
            const BodyCamera& camera, int width, int height);
 
-  // Interpolates the vertices' values, and converts them to colours. `relief` (0 to 1) sets how much a
-  // surface is darkened when it is seen at a grazing angle.
+  // Interpolates the vertices' values and converts them to colours. `relief` (0 to 1) sets how much surfaces
+  // darken at grazing angles.
   Picture draw(std::span<const float> vertex_value, Colour (*colour)(float), float relief = 0) const;
 
  private:
-  static constexpr int samples = 3;  // per side of a pixel
+  static constexpr int samples = 3;  // samples per side of a pixel
 
   struct Hit {
     std::uint32_t triangle;
@@ -82,7 +82,7 @@ namespace nook::bake::probe {
 // Draws four latitude-longitude panels in a row. Each panel is panel_width wide and half as high:
 //   1. the map;
 //   2. the probe's radiance;
-//   3. its irradiance over pi, as a white surface would look;
+//   3. its irradiance over pi, which is how a white surface would look;
 //   4. the luminance of its radiance error, e / (e + the map's mean luminance), from violet (0) over green to
 //      yellow (large).
 // The first three panels have the same exposure, which depends on the map's mean luminance.

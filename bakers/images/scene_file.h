@@ -1,5 +1,5 @@
 // Reads a scene with its textures, and the environment map that lights it. Only the tool compiles this file,
-// so that the library does not have to load OpenImageIO.
+// so that the library does not load OpenImageIO.
 #pragma once
 
 #include <filesystem>
@@ -24,10 +24,10 @@ Texture decode_texture(const EncodedImage& image);
 namespace nook::bake::probe {
 
 // Reads a latitude-longitude map of floating-point radiance (.hdr, .exr). It must be twice as wide as high,
-// with at most 16,384 columns. Negative values, which filters sometimes produce, are set to 0 if their sum is
-// at most 1 % of the sum of the others. Throws Failure(BAD_FILE) for any other image, and for values that are
-// not finite or above raytrace's max_radiance. The message does not name the file; the caller must add its
-// name.
+// with at most 16,384 columns. Filters sometimes produce negative values. They are set to 0 if their sum is
+// at most 1 % of the sum of the positive values. Throws Failure(BAD_FILE) for any other image, and for values
+// that are not finite or above max_radiance (environment.h). The message does not name the file; the caller
+// must add its name.
 Environment read_environment(const std::filesystem::path& path);
 
 }  // namespace nook::bake::probe
@@ -37,7 +37,7 @@ namespace nook::bake {
 struct ProbeScene {
   TriangleSoup soup;
   Vec3 low_ws, high_ws;     // bounding box of all triangles, metres
-  float origin_offset = 0;  // how far along the normal rays from a surface start, metres
+  float origin_offset = 0;  // offset of ray origins along the normal, metres
   std::unique_ptr<LitScene> lit;
 };
 

@@ -28,14 +28,14 @@ struct Pair {
   Angles light, view;
 };
 
-// The database moves a light by less than the angle between neighbouring directions.
+// The database moves a light by less than the angle between neighbouring light directions.
 constexpr float most_moved_deg = 15;
 
 bool is_letter(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
 }
 
-// Returns the number after a two-letter key. There must be no letter before the key.
+// Returns the number after a two-letter key. A key after another letter does not count.
 std::optional<float> number_behind(std::string_view text, std::string_view key) {
   std::optional<float> found;
   for (std::size_t at = text.find(key); at != std::string_view::npos; at = text.find(key, at + 1)) {
@@ -90,9 +90,9 @@ std::vector<Pair> read_pairs(std::span<const std::string> names) {
   return pairs;
 }
 
-// Restores the pairs whose light was moved. The lamp cannot be at the camera's position, so the database
-// moves it if light and view directions are equal. A moved light exists for only one view. Its image replaces
-// the missing pair.
+// Puts moved lights back to their original directions. The lamp cannot be at the camera's position, so the
+// database moves the light if light and view directions are equal. A moved light exists for only one view.
+// Its image replaces the missing image of the equal directions.
 void put_moved_lights_back(std::vector<Pair>& pairs) {
   std::map<Angles, std::set<Angles>> views_of;
   for (const Pair& p : pairs) views_of[p.light].insert(p.view);
@@ -160,7 +160,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr float max_half = 65504;  // the largest half float
-// The limit for one image. Reading 32 million texels at once takes 0.8 GB.
+// The maximum size of an image. Reading 32 million texels at once takes 0.8 GB.
 constexpr std::size_t most_image_texels = std::size_t{1} << 25;
 
 struct Size {
@@ -192,8 +192,8 @@ class UboImage {
 
   Size size() const { return {input_->head().width, input_->head().height}; }
 
-  // Returns the texels of a region as linear values. The first row is the top. Keeps in memory only the rows
-  // or tiles that contain the region.
+  // Returns the texels of a region as linear values. The first row is the top. Only the rows or tiles that
+  // contain the region are kept in memory.
   std::vector<float> read(const Region& region) {
     const Region held = held_region(region);
     std::vector<float> raw(channels_read_ * std::size_t(held.size.width) * std::size_t(held.size.height));
@@ -215,8 +215,8 @@ class UboImage {
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s: cannot be read (%.150s)", path_.c_str(), why.c_str());
   }
 
-  // A single channel is used for all three. Channels after the third are not read, unless X, Y and Z are
-  // among them.
+  // An image with one channel uses it for all three. Channels after the third are not read, unless X, Y and Z
+  // are among them.
   void find_channels(const platform::ImageHead& spec, FloatColours colours) {
     if (spec.channels < 3) return;
     channel_ = {0, 1, 2};
@@ -279,8 +279,8 @@ class UboImage {
   bool is_xyz_ = false;
 };
 
-// Copies an image to the raw material. In a raw material, the first row is the bottom; in an image, it is the
-// top.
+// Copies an image to the raw material and flips it: the first row is the bottom in a raw material, and the
+// top in an image.
 void copy_image(const std::vector<float>& rgb, std::size_t light, std::size_t view, RawMaterial& raw) {
   for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t x = 0; x < raw.width; ++x) {
@@ -322,7 +322,7 @@ RawMaterial read_ubo_folder(const fs::path& folder, std::uint32_t texels, const 
                   names.size(), raw.width, raw.height, double(values) * sizeof(float) / double(1 << 30));
   raw.btf.resize(values);
 
-  // Reports the error of the first faulty image, regardless of the order in which threads run.
+  // Reports the error of the first faulty image, in whatever order the threads run.
   std::vector<std::string> fault(names.size());
   std::atomic<bool> failed{false}, stopped{false};
   std::mutex turn;

@@ -14,11 +14,11 @@
 
 namespace nook::bake::material {
 
-// File names of measured BTFs in the layout of Bonn's 2003 database. UTIA's database uses the same layout.
-// There is one image for each pair of light and view directions. Its name contains tl, pl, tv, pv (tilt and
-// azimuth of light and view, degrees), each followed by a number. An example is
-// "00012_tl015_pl060_tv030_pv090.png". UTIA has a folder for each view. Where the light would be at the
-// camera's position, UTIA uses a light direction nearby.
+// File names of measured BTFs in the layout of Bonn's 2003 database, which UTIA's database also uses. There
+// is one image for each pair of light and view directions. Its name contains tl, pl, tv and pv (tilt and
+// azimuth of light and view), each followed by degrees. An example is "00012_tl015_pl060_tv030_pv090.png".
+// UTIA has one folder per view. Where the light would be at the camera's position, UTIA uses a light
+// direction nearby.
 
 struct UboAngles {
   float light_tilt = 0, light_azimuth = 0, view_tilt = 0, view_azimuth = 0;  // degrees
@@ -32,9 +32,9 @@ struct UboGrid {
   std::vector<std::size_t> image;   // lights x views: index of the file name
 };
 
-// Sorts names into a full grid of lights and views. A pair may be missing if its light and view directions
-// are equal. Then the image of a moved light replaces it: a light direction that only this view has, at most
-// 15 degrees away. Throws Failure(NOOK_ERROR_BAD_FILE) if a name cannot be parsed, if two files have the same
+// Sorts names into a full grid of lights and views. A pair with equal light and view directions may be
+// missing. The image of a moved light then replaces it: a light direction that only this view has, at most 15
+// degrees away. Throws Failure(NOOK_ERROR_BAD_FILE) if a name cannot be parsed, if two files have the same
 // directions, or if pairs are missing. The message names these files, or the first missing pair and the
 // number of missing pairs.
 UboGrid arrange_ubo_names(std::span<const std::string> file_names);
@@ -45,15 +45,15 @@ enum class FloatColours {
   xyz,  // CIE 1931 under D65, as in UTIA's database
 };
 
-// Reads all images with names as described above in the folder and its subfolders. Integer images are sRGB
-// and are converted to linear; float images are linear. If an image has one channel, it is used for all
-// three. Channels after the third are ignored. If `texels` is above 0, reads only a square of this side in
-// the middle of each image, and keeps in memory only the rows or tiles that contain it. The result has no
-// VOTF. Progress counts images.
+// Reads all images with such names in the folder and its subfolders. Integer images are sRGB and are
+// converted to linear; float images are linear. An image with one channel uses it for all three. Channels
+// after the third are ignored. If `texels` is above 0, reads only a square of this side in the middle of each
+// image, and keeps only the rows or tiles that contain it in memory. The result has no VOTF. Progress counts
+// images.
 //
-// Throws Failure(NOOK_ERROR_BAD_FILE) that names the file if an image is unreadable, differs in size from the
-// first one, or has a texel in the square that is not finite. Also throws it if the folder has no images, if
-// pairs of directions are missing, or if the BTF would take more than `most_bytes`.
+// Throws Failure(NOOK_ERROR_BAD_FILE) if an image is unreadable, differs in size from the first one, or has a
+// texel in the square that is not finite. The message names the file. Also throws it if the folder has no
+// images, if pairs of directions are missing, or if the BTF would take more than `most_bytes`.
 RawMaterial read_ubo_folder(const std::filesystem::path& folder, std::uint32_t texels,
                             const Progress& progress = {}, std::size_t most_bytes = std::size_t{6} << 30,
                             FloatColours colours = FloatColours::rgb);

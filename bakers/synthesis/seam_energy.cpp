@@ -13,8 +13,8 @@ double squared_difference(const Exemplar& exemplar, Texel a, Texel b) {
   return double((exemplar.values.row(s.row(a)) - exemplar.values.row(s.row(b))).squaredNorm());
 }
 
-// Returns the mean squared difference of horizontal and of vertical neighbours in the exemplar. Pairs across
-// the border are not included.
+// Returns the mean squared difference of horizontal neighbours and of vertical neighbours in the exemplar.
+// Leaves out pairs across the border.
 std::array<double, 2> mean_differences(const Exemplar& exemplar) {
   std::array<double, 2> out{};
   const ExemplarShape& s = exemplar.shape;
@@ -28,7 +28,7 @@ std::array<double, 2> mean_differences(const Exemplar& exemplar) {
   return out;
 }
 
-// plane(x, y) must be defined from (0, 0) to (width, height), including both.
+// plane(x, y) must be defined for x from 0 to width and y from 0 to height, both included.
 template <class PlaneAt>
 Seams measure(const Exemplar& exemplar, std::int32_t width, std::int32_t height, const PlaneAt& plane) {
   const std::array<double, 2> usual = mean_differences(exemplar);

@@ -17,7 +17,7 @@ namespace {
 using tensor::Matrix;
 
 constexpr Eigen::Index rows_of_task = 256;
-// The maximum number of comparisons. It limits the time for a large exemplar.
+// The maximum number of comparisons. It limits the time for large exemplars.
 constexpr double max_pairs = 1.5e9;
 constexpr Eigen::Index max_candidates = 16384, fewest_candidates = 1024;
 
@@ -39,8 +39,8 @@ Matrix surroundings(const Matrix& appearance, const ExemplarShape& shape, std::i
   return out;
 }
 
-// Returns the squared distance of two texels. If the exemplar tiles, this is the shortest distance with
-// wrapping.
+// Returns the squared distance of two texels. In a tiling exemplar, this is the shortest distance across its
+// borders.
 double squared_distance(const ExemplarShape& shape, Texel a, Texel b) {
   double dx = std::abs(a.x - b.x), dy = std::abs(a.y - b.y);
   if (shape.is_tiling) {
@@ -70,7 +70,7 @@ std::vector<Texel> similar_texels(const Matrix& appearance, const ExemplarShape&
   std::vector<Texel> out(static_cast<std::size_t>(texels));
   tbb::parallel_for(Eigen::Index{0}, (texels + rows_of_task - 1) / rows_of_task, [&](Eigen::Index i) {
     const Eigen::Index first = i * rows_of_task, rows = std::min(rows_of_task, texels - first);
-    // These are the squared distances without the squared lengths of the rows, which do not affect the order.
+    // Squared distances, minus the squared lengths of the rows, which do not affect the order.
     Matrix distances = -2 * all.middleRows(first, rows) * candidates.transpose();
     distances.rowwise() += squares;
     for (Eigen::Index r = 0; r < rows; ++r) {
@@ -104,7 +104,7 @@ struct Plane {
   }
 };
 
-// The exemplar at one level. The plane of the same level uses it.
+// The exemplar at one level. The synthesis of the plane at the same level uses it.
 struct Level {
   ExemplarShape shape;
   std::int32_t spacing = 1;
@@ -120,7 +120,7 @@ std::array<float, 2> random_pair(std::uint64_t seed, std::uint32_t level, Texel 
   return {2 * unit_float(bits) - 1, 2 * unit_float(mix_bits(bits)) - 1};
 }
 
-// Returns the position along one axis of the exemplar for a texel of the coarsest plane. `random` is in [-1,
+// For a texel of the coarsest plane, returns the position along one axis of the exemplar. `random` is in [-1,
 // 1).
 std::int32_t coarsest_place(const ExemplarShape& shape, std::int32_t size, std::int32_t texel,
                             std::int32_t block, std::int32_t spacing, float random, float jitter) {
@@ -131,9 +131,9 @@ std::int32_t coarsest_place(const ExemplarShape& shape, std::int32_t size, std::
 }
 
 // Covers the plane with square blocks of half the exemplar's size. Each block shows a part of the exemplar,
-// moved at random. Without the movement, all blocks together would only repeat the exemplar, or one part of
-// it if it does not tile. Without blocks, the initial plane would have no structure, and the corrections
-// would converge to an average of the exemplar.
+// moved at random. Without the movement, the blocks would only repeat the exemplar, or one part of it if it
+// does not tile. Without blocks, the initial plane would have no structure, and the corrections would
+// converge to an average of the exemplar.
 Plane coarsest_plane(const Level& level, std::int32_t side, std::uint32_t number, float jitter,
                      std::uint64_t seed) {
   const ExemplarShape& s = level.shape;
@@ -150,7 +150,7 @@ Plane coarsest_plane(const Level& level, std::int32_t side, std::uint32_t number
   return plane;
 }
 
-// Replaces each texel by four children, and moves them at random. Without the movement, each child is half
+// Replaces each texel by four children, and moves them at random. Before this movement, each child is half
 // the spacing away from its parent along each axis.
 Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, float jitter,
                 std::uint64_t seed) {
@@ -159,7 +159,7 @@ Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, f
   tbb::parallel_for(0, side, [&](std::int32_t y) {
     for (std::int32_t x = 0; x < side; ++x) {
       const Texel parent = coarse.at({x / 2, y / 2});
-      // The four children are centred on the parent. At a spacing of 1, this is not possible: along each
+      // The four children are placed around the parent. At a spacing of 1, they cannot be centred: along each
       // axis, they lie on the parent and one texel before it.
       const auto place = [h](std::int32_t child) { return child == 0 ? -((h + 1) / 2) : h / 2; };
       const auto [a, b] = random_pair(seed, number, {x, y});
@@ -174,8 +174,8 @@ Plane upsampled(const Plane& coarse, const Level& level, std::uint32_t number, f
 
 constexpr std::array<Texel, 4> diagonals{{{-1, -1}, {1, -1}, {-1, 1}, {1, 1}}};
 
-// The surroundings of a texel of the plane. For each diagonal neighbour, three texels near it predict an
-// appearance vector, and the surroundings contain the mean of the three, equation (2) of the 2006 paper.
+// The surroundings of a texel of the plane: an appearance vector for each diagonal neighbour. Each vector is
+// the mean of the predictions by three texels near the neighbour, equation (2) of the 2006 paper.
 using Surroundings = Eigen::Matrix<float, 4, Eigen::Dynamic, Eigen::RowMajor, 4, appearance_channels>;
 Surroundings surroundings(const Plane& plane, const Level& level, Texel p) {
   Surroundings out = Surroundings::Zero(4, level.appearance.cols());
@@ -198,15 +198,15 @@ float difference(const Surroundings& wanted, const Level& level, Texel candidate
   return sum;
 }
 
-// The weight of seams relative to differences of surroundings. We need this term because the surroundings
-// contain only the leading components of windows, which do not describe every texel. A larger weight would
-// choose texels with the wrong surroundings.
+// The weight of seams relative to differences of surroundings. The surroundings contain only the leading
+// components of windows, so they do not describe every texel, and we also compare seams. A larger weight
+// would choose texels with the wrong surroundings.
 constexpr float seam_weight = 4;
 
-// Measures the visible seams between a candidate and its four neighbours in the plane. There is no seam if
-// the neighbour in the plane is also the neighbour in the exemplar. Otherwise, compares the neighbour with
-// the texel that continues the candidate's piece of the exemplar, and the candidate with the texel that
-// continues the neighbour's piece.
+// Measures the visible seams between a candidate and its four neighbours in the plane. If the candidate and
+// the neighbour are also neighbours in the exemplar, there is no seam. Otherwise, compares the neighbour with
+// the texel that would continue the candidate's piece of the exemplar, and the candidate with the texel that
+// would continue the neighbour's piece.
 float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
   constexpr std::array<Texel, 4> sides{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   const ExemplarShape& s = level.shape;
@@ -224,7 +224,7 @@ float seams(const Plane& plane, const Level& level, Texel p, Texel candidate) {
 }
 
 // Returns the best candidate for p. Each of the 3 x 3 texels around p proposes two candidates. One continues
-// its own piece of the exemplar to p, and the other one continues the most similar piece.
+// the texel's own piece of the exemplar to p. The other continues the piece that is most similar to it.
 Texel corrected(const Plane& plane, const Level& level, Texel p) {
   const Surroundings wanted = surroundings(plane, level, p);
   Texel best = plane.at(p);
@@ -249,7 +249,8 @@ Texel corrected(const Plane& plane, const Level& level, Texel p) {
   return best;
 }
 
-// Corrects the texels with coordinates equal to `phase` modulo 2. Every correction reads the plane `before`.
+// Corrects the texels with coordinates equal to `phase` modulo 2. Every correction reads only the plane
+// `before`.
 void correct(const Level& level, Texel phase, const Plane& before, Plane& after) {
   tbb::parallel_for(0, (before.side - phase.y + 1) / 2, [&](std::int32_t row) {
     const std::int32_t y = 2 * row + phase.y;
@@ -283,7 +284,7 @@ std::uint32_t level_count(const ExemplarShape& shape) {
 }
 
 // Returns the exemplar's shape for a level with this spacing. The margin is two spacings. Closer to the
-// border, windows are partly mirrored, and the plane would show the border again and again.
+// border, windows are partly mirrored. Without the margin, the plane would show the border again and again.
 ExemplarShape shape_of_level(ExemplarShape shape, std::int32_t spacing) {
   if (!shape.is_tiling) shape.margin = std::min(2 * spacing, std::min(shape.width, shape.height) / 4);
   return shape;

@@ -1,8 +1,8 @@
 // Synthesises textures in appearance space (S. Lefebvre, H. Hoppe: Appearance-Space Texture Synthesis, 2006),
-// with the coarse-to-fine scheme of their Parallel Controllable Texture Synthesis, 2005. The plane stores,
-// for each of its texels, coordinates in the exemplar. Each level doubles the resolution of the coordinates,
-// moves them at random, and corrects them in parallel. A correction looks for an exemplar texel with
-// surroundings that resemble the surroundings in the plane.
+// from coarse to fine as in their Parallel Controllable Texture Synthesis, 2005. Each texel of the plane
+// stores coordinates in the exemplar. Each level doubles the resolution of the coordinates, moves them at
+// random, and corrects them in parallel. A correction looks for an exemplar texel whose surroundings resemble
+// the surroundings in the plane.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 
 namespace nook::bake::synthesis {
 
-// Finds the second candidate of each texel for k-coherent search (X. Tong and others: Synthesis of
+// Finds a second candidate for each texel, for k-coherent search (X. Tong and others: Synthesis of
 // bidirectional texture functions on arbitrary surfaces, 2002).
 
-// Return false to stop. The function is never called on worker threads.
+// Return false to stop. Worker threads never call the function.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Returns, for each texel, the texel with the most similar surroundings. The surroundings are the appearance
-// vectors of the four diagonal neighbours, `spacing` texels away. The candidates are texels that a plane may
-// show, at a distance of at least a twentieth of the exemplar's shorter side. For exemplars of more than
-// 16,384 texels, only an evenly spread part of the texels are candidates.
+// For each texel, returns the texel with the most similar surroundings. The surroundings are the appearance
+// vectors of the four diagonal neighbours, `spacing` texels away. The candidates are the texels that a plane
+// may show, at a distance of at least a twentieth of the exemplar's shorter side. Exemplars of more than
+// 16,384 texels use only an evenly spread part of their texels as candidates.
 std::vector<Texel> similar_texels(const tensor::Matrix& appearance, const ExemplarShape& shape,
                                   std::int32_t spacing);
 
@@ -32,9 +32,9 @@ inline constexpr std::uint32_t min_exemplar_side = 16;
 struct SynthesisSettings {
   std::uint32_t side = 512;  // texels per side of the plane
   // The strength of the random movement, 0 to 1. It moves the initial blocks, relative to the exemplar's
-  // size. At each level except the two finest, it also moves the texels, relative to their spacing.
+  // size. It also moves the texels at each level except the two finest, relative to their spacing.
   float jitter = 0.8f;
-  std::uint32_t passes = 8;  // number of corrections at each level
+  std::uint32_t passes = 8;  // number of times that each level is corrected
   std::uint64_t seed = 1;
 };
 
@@ -43,9 +43,9 @@ struct SynthesisSettings {
 void check_synthesis(const Exemplar& exemplar, const SynthesisSettings& settings);
 
 // Returns a plane that repeats: side x side texels of the exemplar, row by row. If the exemplar does not
-// tile, the plane does not show the two outermost texels along its border, so that a filter of 3 x 3 texels
-// never reads beyond the exemplar. The result has the same bits on any number of threads. Throws
-// Failure(INVALID_ARGUMENT), or Failure(CANCELLED) if `progress` returned false.
+// tile, the plane does not show the two outermost texels along its border. So a filter of 3 x 3 texels never
+// reads beyond the exemplar. The result has the same bits on any number of threads. Throws
+// Failure(INVALID_ARGUMENT), or Failure(CANCELLED) if `progress` returns false.
 std::vector<Texel> synthesise(const Exemplar& exemplar, const SynthesisSettings& settings,
                               const Progress& progress = {});
 

@@ -1,5 +1,5 @@
-// Handles bodies with a file that is not in metres. The floors, walls and priors of a fit are in metres.
-// Without scaling, a fox with a size of 176 m would stand on a floor as small as its paw.
+// Handles bodies from files that are not in metres. The floors, walls and priors of a fit are in metres.
+// Without scaling, a fox 176 m long would stand on a floor as small as its paw.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 namespace nook::bake {
 
 // Returns 1 for bodies with an extent of 0.2 m to 14 m. For other bodies, returns the power of two that
-// scales the extent nearest to 1.7 m. Scaling by a power of two causes no rounding.
+// brings the extent closest to 1.7 m. Scaling by a power of two causes no rounding.
 float scale_to_metres(const SkinnedMesh& mesh);
 
 SkinnedMesh mesh_in_metres(const SkinnedMesh& mesh, float scale);

@@ -1,5 +1,5 @@
-// A Dual stores a number and its derivatives with respect to the eight parameters of a capsule. With this
-// type, forward differentiation can use the same formulas as the runtime.
+// A Dual stores a number and its derivatives with respect to the eight parameters of a capsule. The formulas
+// of the runtime also work with this type, and then compute the derivatives too.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ struct Dual {
   }
 };
 
-// Returns a number with the given value and the slope first * a.slope + second * b.slope.
+// Returns `value` with the slope first * a.slope + second * b.slope.
 inline Dual combined(float value, float first, const Dual& a, float second, const Dual& b) {
   Dual r(value);
   for (std::size_t i = 0; i < Dual::count; ++i) r.slope[i] = first * a.slope[i] + second * b.slope[i];
@@ -61,7 +61,7 @@ inline Dual min(const Dual& a, const Dual& b) {
 inline Dual max(const Dual& a, const Dual& b) {
   return a.value > b.value ? a : b;
 }
-// The true slope is infinite at 0. A finite slope is returned instead, so that its products with 0 are 0.
+// At 0, the true slope is infinite. Returns a finite slope, so that its product with 0 is 0.
 inline Dual sqrt(const Dual& a) {
   const float r = std::sqrt(a.value);
   return scaled(r, 0.5f / std::fmax(r, 1e-6f), a);

@@ -19,10 +19,11 @@
 namespace nook::bake {
 namespace {
 
-// The number of parameters of a caster: two ends, the logarithms of both radii, and the logarithm of their
-// scale in AO.
+// The number of parameters of a caster: the coordinates of two ends, the logarithms of both radii, and the
+// logarithm of ao_scale.
 constexpr std::size_t width = Dual::count + 1;
-// The number of partial sums. They are added in order, so that the result does not depend on the threads.
+// The number of partial sums. They are added in a fixed order, so that the result does not depend on the
+// threads.
 constexpr std::size_t chunks = 16;
 constexpr std::size_t block_rows = 128;  // points whose derivatives are multiplied at once
 
@@ -30,8 +31,8 @@ using Parameters = Eigen::VectorXd;
 
 float covered_share(const Capsule& c, const TrainingPoint& point) {
   if (!point.of_light()) return coverage_at(c, point.position, point.normal);
-  // A capsule that is approximated by a rectangle reaches a little beyond its round ends. Testing with twice
-  // the cone's angle is enough.
+  // The formula approximates a capsule by a rectangle that reaches a little beyond its round ends. So we test
+  // with twice the cone's angle.
   if (!may_hide(c, point.position, point.normal, 2 * std::atan(point.slope))) return 0;
   return part_coverage_at(c, point.position, point.normal, point.slope);
 }
@@ -70,7 +71,7 @@ struct Slopes {
   std::array<float, width> slope{};
 };
 
-// Returns the coverage of one point with its derivatives with respect to the caster's parameters in rest
+// Returns the coverage of one point and its derivatives with respect to the caster's parameters in rest
 // space.
 Slopes coverage_with_slopes(const Capsule& c, const Mat3x4& bone, const TrainingPoint& point) {
   const Vec3 a = c.a - point.position, b = c.b - point.position;
@@ -102,7 +103,7 @@ struct Sums {
   Eigen::VectorXd right;
 };
 
-// The weighted squared error of a range of points, and the normal equations of its linearisation.
+// The weighted squared error of a range of points, and the normal equations of its linear approximation.
 class Objective {
  public:
   explicit Objective(const TrainingPoints& set) : set_(set) {}
@@ -167,7 +168,7 @@ class Objective {
     Eigen::MatrixXf rows(block_rows, columns), gram(columns, columns);
     Eigen::VectorXf residual(block_rows);
     std::vector<Slopes> covered(casters.size());
-    // Nearly every caster affects the AO points. So their rows are full and are multiplied as one block.
+    // Nearly every caster affects the AO points, so their rows are full and we multiply them as one block.
     std::size_t count = 0;
     const auto multiply = [&] {
       if (count == 0) return;  // Eigen divides by the number of rows
@@ -203,7 +204,7 @@ class Objective {
     multiply();
   }
 
-  // Only a few casters hide a light, so only their rows and columns change.
+  // Only a few casters hide each light, so we change only their rows and columns.
   void add_light(std::span<const WorldCaster> casters, const std::vector<Capsule>& capsules,
                  const TrainingPoint& point, Sums& sums) const {
     struct Hiding {
@@ -217,7 +218,7 @@ class Objective {
       if (!may_hide(capsules[k], point.position, point.normal, 2 * std::atan(point.slope))) continue;
       Slopes share = coverage_with_slopes(capsules[k], pose[casters[k].bone], point);
       open *= 1 - share.value;
-      // If both ends of a capsule coincide, its slopes are not finite.
+      // The slopes are not finite if both ends of a capsule are at the same point.
       const bool finite = std::all_of(share.slope.begin(), share.slope.end(),
                                       [](float slope) { return std::isfinite(slope); });
       if (!finite) share.slope.fill(0);
@@ -245,8 +246,8 @@ class Objective {
   const TrainingPoints& set_;
 };
 
-// A capsule without a length has no direction, and its derivatives are infinite. So the fit starts with a
-// length of at least a tenth of the radius.
+// A capsule without length has no direction, and its derivatives are infinite. So every capsule starts with a
+// length of at least a tenth of its radius.
 void lengthen(std::vector<WorldCaster>& casters) {
   for (WorldCaster& caster : casters) {
     Capsule& c = caster.capsule;
@@ -259,8 +260,8 @@ void lengthen(std::vector<WorldCaster>& casters) {
   }
 }
 
-// Overlapping capsules of full radius darken too much. So the fit starts with one scale for all radii, and
-// another for the radii in AO.
+// Capsules overlap, so they darken too much at their full radius. The fit starts with one scale for all
+// radii, and with another scale for the radii in AO.
 void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) {
   const auto scaled = [&](float radius, float ao) {
     std::vector<WorldCaster> out = casters;
@@ -271,7 +272,7 @@ void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) 
     }
     return out;
   };
-  // The errors of AO depend only on the radii in AO, so the two scales can be found one after the other.
+  // The errors of AO depend only on the radii in AO, so we can find one scale after the other.
   const auto best_of = [&](auto&& candidate) {
     std::vector<WorldCaster> best;
     double least = INFINITY;
@@ -290,7 +291,7 @@ void scale_radii(std::vector<WorldCaster>& casters, const Objective& objective) 
   casters = best_of([&](float radius) { return scaled(radius, in_ao / radius); });
 }
 
-// Returns the inverse variances of the prior that keeps parameters near their initial values.
+// Returns the inverse variances of the prior that pulls parameters towards their initial values.
 Eigen::VectorXd pull_of(std::size_t casters, const WorldCasterSettings& s) {
   Eigen::VectorXd pull(Eigen::Index(casters * width));
   for (std::size_t i = 0; i < casters * width; ++i) {
@@ -300,8 +301,8 @@ Eigen::VectorXd pull_of(std::size_t casters, const WorldCasterSettings& s) {
   return pull;
 }
 
-// Fewer casters have fewer parameters, so fewer points are enough. With fewer than a quarter of the points,
-// the randomness of their positions would be visible.
+// Fewer casters have fewer parameters, so fewer points are enough. We keep at least a quarter of the points,
+// because with fewer points their random positions would visibly affect the result.
 WorldCasterSettings with_points_for(std::size_t casters, WorldCasterSettings settings) {
   const double share = std::clamp(double(casters) / double(settings.casters), 0.25, 1.0);
   for (std::size_t* const points :
@@ -360,7 +361,7 @@ std::vector<WorldCaster> fit_world_casters(const SkinnedMesh& mesh, std::span<co
       const Eigen::VectorXd change = damped.selfadjointView<Eigen::Lower>().ldlt().solve(sums.right);
       set_parameters(casters, best + change);
       const double error = objective.error(casters) + pulled(best + change);
-      // The gain that the linearisation predicts for this step.
+      // The gain that the linear approximation predicts for this step.
       const double promised =
           2 * change.dot(sums.right) - change.dot(sums.gram.selfadjointView<Eigen::Lower>() * change);
       const double kept = (before - error) / std::max(promised, 1e-12);

@@ -98,7 +98,7 @@ Shape shape_of(const Part& part, std::span<const Vec3> position, std::span<const
   return shape;
 }
 
-// A thinner caster has no visible effect.
+// A caster thinner than this has no visible effect.
 constexpr float least_radius_m = 1e-3f;
 
 WorldCaster capsule_of(const Part& part, std::span<const Vec3> position, std::span<const float> area) {
@@ -138,7 +138,7 @@ bool by_area(const Part& a, const Part& b) {
   return a.area != b.area ? a.area < b.area : a.bone < b.bone;
 }
 
-// Low-poly bodies get fewer capsules. Otherwise, capsules would follow single triangles, and would cost as
+// Low-poly bodies get fewer capsules. With more, capsules would follow single triangles and would cost as
 // much as the capsules of a detailed body.
 constexpr std::size_t least_vertices = 12;
 
@@ -181,7 +181,6 @@ bool cut(std::vector<Part>& parts, std::size_t which, std::span<const Vec3> posi
   Part low, high;
   low.bone = high.bone = parts[which].bone;
   for (const std::uint32_t v : parts[which].vertex) {
-    // A round part is wider than it is long. After the cut, both halves keep the axis.
     Part& side = dot(position[v] - shape.mean, shape.axis[2]) < 0 ? low : high;
     side.vertex.push_back(v);
     side.area += double(area[v]);
@@ -192,7 +191,7 @@ bool cut(std::vector<Part>& parts, std::size_t which, std::span<const Vec3> posi
   return true;
 }
 
-// Returns the misfit of one capsule to a part: (breadth - thickness) * area.
+// Returns how badly one capsule fits a part: (breadth - thickness) * area.
 double misfit(const Part& part, std::span<const Vec3> position, std::span<const float> area) {
   const Shape shape = shape_of(part, position, area);
   return part.area * double(shape.spread[1] - 0.7f * shape.spread[0]) +

@@ -1,4 +1,4 @@
-// Evaluates casters in a pose, and the openness that they leave at a point.
+// Evaluates casters in a pose, and the share of the hemisphere of a point that they leave open.
 #pragma once
 
 #include <cmath>
@@ -18,7 +18,7 @@ inline float scale_of(const Mat3x4& m) {
   return length({m.m[0], m.m[4], m.m[8]});
 }
 
-// The use that a caster is evaluated for.
+// What a caster is evaluated for.
 enum class CasterUse { ao, light };
 
 inline Capsule posed(const WorldCaster& caster, const Pose& pose, CasterUse use) {
@@ -48,7 +48,7 @@ inline float part_coverage_at(const Capsule& c, Vec3 point, Vec3 axis, float slo
 }
 
 // Returns false if the bounding sphere of the capsule is outside a cone around the axis. Then the capsule
-// hides nothing of a light inside the cone.
+// hides no part of a light inside the cone.
 inline bool may_hide(const Capsule& c, Vec3 point, Vec3 axis, float half_angle_radians) {
   const Vec3 centre = 0.5f * (c.a + c.b) - point;
   const float radius = 0.5f * length(c.b - c.a) + std::fmax(c.radius_a, c.radius_b);

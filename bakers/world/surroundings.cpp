@@ -11,8 +11,8 @@
 namespace nook::bake {
 namespace {
 
-// A low-discrepancy sequence in the unit square: multiples of the powers of 1 / 1.3247..., the root of
-// x^3 = x + 1 (Roberts 2018), from a random start.
+// A low-discrepancy sequence in the unit square (Roberts 2018). It starts at a random place and adds 1 / g to
+// x and 1 / g^2 to y each time, where g = 1.3247... solves g^3 = g + 1.
 class UnitSquare {
  public:
   explicit UnitSquare(Random& random) : x_(random.unit_double()), y_(random.unit_double()) {}
@@ -38,7 +38,7 @@ Vec3 foot_of(std::span<const Vec3> body) {
   return {0.5f * (b.low.x + b.high.x), b.low.y, 0.5f * (b.low.z + b.high.z)};
 }
 
-// Calls a function with points on a triangle that are at most a grid step apart.
+// Calls a function with points on a triangle. Neighbouring points are at most a grid step apart.
 template <class Call>
 void spread_over(Vec3 a, Vec3 b, Vec3 c, const Call& call) {
   const float longest = std::max({length(b - a), length(c - a), length(c - b)});
@@ -48,7 +48,7 @@ void spread_over(Vec3 a, Vec3 b, Vec3 c, const Call& call) {
       call(a + (float(i) / float(steps)) * (b - a) + (float(j) / float(steps)) * (c - a));
 }
 
-// The share of the floor's points that lie in a square at its middle, and half the side length of the square.
+// The share of the floor's points in a square in its middle, and half the side length of this square.
 constexpr double near_share = 0.75;
 constexpr float near_half_m = 1.2f;
 

@@ -1,5 +1,5 @@
 // Makes points on the surfaces that a body darkens: the floor, a wall and another body. The points are
-// distributed by area.
+// distributed evenly by area.
 #pragma once
 
 #include <array>
@@ -32,14 +32,15 @@ struct PosedBody {
   std::span<const Triangle> triangle;
 };
 
-inline constexpr float grid_step_m = 0.02f;     // for floor and wall
-inline constexpr float floor_size_m = 6;        // a square below the middle of the body
-inline constexpr float contact_m = 0.15f;       // floor points this near to the body are in the contact ring
-inline constexpr float wall_distance_m = 0.3f;  // distance from the nearest vertex
+inline constexpr float grid_step_m = 0.02f;  // of floor and wall
+inline constexpr float floor_size_m = 6;     // a square below the middle of the body
+inline constexpr float contact_m =
+    0.15f;  // floor points up to this distance from the body are in the contact ring
+inline constexpr float wall_distance_m = 0.3f;  // distance of the wall from the nearest vertex
 inline constexpr float wall_width_m = 3, wall_height_m = 2.5f;
-inline constexpr float neighbour_gap_m = 0.3f;  // between the two bodies, along the bearing
+inline constexpr float neighbour_gap_m = 0.3f;  // between both bodies, in the direction of the bearing
 
-// Returns the height of the floor, which is the height of the lowest vertex.
+// Returns the height of the floor: the height of the body's lowest vertex.
 float floor_height(std::span<const Vec3> body);
 
 // Returns `count` grid points of the floor. Three quarters of them are within 1.2 m of its middle.

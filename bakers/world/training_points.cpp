@@ -31,7 +31,7 @@ float open_cone_share(const RayScene& scene, Vec3 origin, const RayCone& cone, s
 
 namespace {
 
-// Lights are between these heights above the horizon.
+// The range of the lights' heights above the horizon.
 constexpr float lowest_light_radians = 0.4f, highest_light_radians = 1.4f;
 
 Vec3 random_light(Random& random) {
@@ -50,15 +50,15 @@ Pose lying(const Pose& pose, float yaw_radians) {
   return out;
 }
 
-// Bodies fall, sleep and climb. So the body lies on the floor in every fourth pose, and every part of it is
+// In every fourth pose, the body lies on the floor, as when it falls or sleeps. So every part of it comes
 // near the floor in some poses.
 constexpr std::size_t lying_every = 4;
 
-// Half angles of cones of light. At run time, a cone is split into 16 parts with a quarter of its angle. This
+// Half angles of cones of light. At run time, a cone is split into 16 parts with a quarter of its angle. The
 // range covers the parts of cones from 4 to 60 degrees.
 constexpr float least_cone_radians = 0.008f, most_cone_radians = 0.13f;
 
-// Returns a point with its own light, and traces the open share of the light.
+// Makes a point with its own light, and traces which share of the light is open.
 TrainingPoint lit_point(const RayScene& scene, Vec3 at, Vec3 light, std::uint32_t rays, float offset,
                         Random& random) {
   const float half = least_cone_radians * std::pow(most_cone_radians / least_cone_radians, random.unit());
@@ -84,8 +84,8 @@ void add_cones(TrainingPoints& set, const RayScene& scene, const SurfacePoints& 
   }
 }
 
-// Adds points of the floor where the body's shadow begins, ends or could have a hole. Each point is a point
-// of the body, projected along the light onto the floor and then moved a little to the side.
+// Adds floor points where the body's shadow begins, ends or could have a hole. We project random points of
+// the body along the light onto the floor, and then move them a little to the side.
 void add_outlines(TrainingPoints& set, const RayScene& scene, const PosedBody& body, std::size_t count,
                   std::uint32_t pose, std::uint32_t rays, float offset, Random& random, double& none) {
   const FlushDenormals flush;
@@ -173,7 +173,7 @@ TrainingPoints trace_training_points(const SkinnedMesh& mesh, std::span<const Po
     add_outlines(set, scene, body, settings.outline_points, std::uint32_t(p), std::max(settings.rays / 8, 1u),
                  offset, random, none[std::size_t(PointKind::outline)]);
   }
-  // The floor near a body is the most visible part, and the most difficult to get right.
+  // The floor near a body is the part that is most visible and hardest to get right.
   constexpr double share[point_kinds] = {2, 1, 1.5, 0.7, 1, 2};
   for (TrainingPoint& point : set.point)
     point.weight = float(share[std::size_t(point.kind)] * double(point.weight) /
