@@ -16,8 +16,8 @@
 namespace nook::bake {
 namespace {
 
-// We measured the error against ray tracing on a body on the ground with neighbours. It is nearly the same
-// for ridges from 0.001 to 0.01, and for position weights from 0 to 2 per square metre.
+// The error against ray tracing is nearly the same for any ridge from 0.001 to 0.01, and for any position
+// weight from 0 to 2 per square metre. The test was a body on the ground with neighbours.
 constexpr double ridge = 3e-3;
 constexpr double position_weight_per_m2 = 1;
 // The weight of the spheres in the loss. A weight of 3 lowers the error of the AO from neighbours by a fifth.

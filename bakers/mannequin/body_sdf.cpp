@@ -360,7 +360,7 @@ Part make_hand() {
                  {0.083, 0.000, 0.000, 0.040, 0.039, 0.0115, 0.0125}},
                 0.006, 2.3),
            0.012);
-  // The pads at the base of the thumb and of the little finger.
+  // Pads at the base of the thumb and the little finger.
   hand.add(RoundCone{at(0.018, 0.016, -0.010), at(0.050, 0.034, -0.014), 0.016, 0.014}, 0.014);
   hand.add(RoundCone{at(0.018, -0.018, -0.010), at(0.060, -0.026, -0.010), 0.012, 0.010}, 0.014);
   // The fold of skin between thumb and index finger.

@@ -11,8 +11,8 @@
 
 namespace nook::bake {
 
-// The maximum radiance of a map's texel and of an emissive surface. It keeps sums of squares over any number
-// of paths far below the maximum of a float.
+// No texel of a map and no emissive surface may have a higher radiance. So sums of squares over any number of
+// paths stay far below the maximum of a float.
 inline constexpr double max_radiance = 1e15;
 
 // Rows go from +y to -y, and columns go around the y axis. The middle column looks along +x. The column a

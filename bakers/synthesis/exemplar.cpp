@@ -41,8 +41,7 @@ using tensor::Matrix;
 
 constexpr std::int32_t reach = 2;  // texels of a window on each side of its middle
 constexpr Eigen::Index window_texels = (2 * reach + 1) * (2 * reach + 1);
-constexpr Eigen::Index most_samples =
-    16384;  // number of windows that the principal components are computed from
+constexpr Eigen::Index most_samples = 16384;  // windows that define the principal components
 constexpr Eigen::Index block = 1024;
 
 // Returns the windows of `count` texels: first, first + stride, ...

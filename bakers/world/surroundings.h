@@ -32,10 +32,9 @@ struct PosedBody {
   std::span<const Triangle> triangle;
 };
 
-inline constexpr float grid_step_m = 0.02f;  // of floor and wall
-inline constexpr float floor_size_m = 6;     // a square below the middle of the body
-inline constexpr float contact_m =
-    0.15f;  // floor points up to this distance from the body are in the contact ring
+inline constexpr float grid_step_m = 0.02f;     // of floor and wall
+inline constexpr float floor_size_m = 6;        // a square below the middle of the body
+inline constexpr float contact_m = 0.15f;       // maximum distance of the contact ring from the body
 inline constexpr float wall_distance_m = 0.3f;  // distance of the wall from the nearest vertex
 inline constexpr float wall_width_m = 3, wall_height_m = 2.5f;
 inline constexpr float neighbour_gap_m = 0.3f;  // between both bodies, in the direction of the bearing

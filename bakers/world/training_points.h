@@ -18,8 +18,8 @@ struct RayCone {
   float half_angle_radians = 0;
 };
 
-// Spreads the rays evenly over the cone's solid angle on a spiral. `turn`, in [0, 1), turns the spiral about
-// the axis.
+// The rays are spread evenly over the cone's solid angle on a spiral. `turn`, in [0, 1), turns the spiral
+// about the axis.
 float open_cone_share(const RayScene& scene, Vec3 origin, const RayCone& cone, std::uint32_t rays,
                       float turn);
 
