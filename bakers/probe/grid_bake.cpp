@@ -76,8 +76,8 @@ double GridBake::error() {
     apart_sum += apart[p];
     size_sum += size[p];
   }
-  // The variance of each half is twice the variance of the whole fit, and the variance of their difference is
-  // four times as large.
+  // Each half has twice the variance of the whole fit, so the difference of the halves has four times that
+  // variance.
   return size_sum > 0 ? 0.5 * std::sqrt(std::max(apart_sum, 0.0) / size_sum) : 0.0;
 }
 
@@ -100,7 +100,7 @@ nook::probe::Probes GridBake::probes() {
 }
 
 nook::probe::Grid grid_in_box(const std::array<std::uint32_t, 3>& counts, Vec3 low_ws, Vec3 high_ws) {
-  constexpr float least_spacing = 1e-3f;  // metres, for boxes that are flat
+  constexpr float least_spacing = 1e-3f;  // metres, for flat boxes
   const auto spacing = [=](float low, float high, std::uint32_t count) {
     return std::max((high - low) / float(count), least_spacing);
   };

@@ -34,13 +34,13 @@ class GridBake {
   std::uint32_t passes() const { return passes_; }
   std::uint64_t samples() const { return std::uint64_t(passes_) * settings_.samples_per_pass; }  // per probe
 
-  // Returns the remaining statistical error relative to the radiance R: the root of the integral of (R -
-  // R_limit)^2 divided by the integral of R^2, both summed over all probes. The error is estimated from the
-  // difference between a fit to the odd passes and a fit to the even passes. Returns 1 before there are two
-  // passes.
+  // Returns the remaining statistical error relative to the radiance R: the square root of the integral of (R
+  // - R_limit)^2 divided by the integral of R^2, where both are summed over all probes. The error is
+  // estimated from the difference between a fit to the odd passes and a fit to the even passes. Returns 1
+  // before there are two passes.
   double error();
 
-  // Returns the present state. You can call it at any time between passes. Probes inside solids get no paths.
+  // Returns the present state. You can call it between any two passes. Probes inside solids get no paths.
   // Their coefficients are the mean of their neighbours' coefficients.
   nook::probe::Probes probes();
   const std::vector<Vec3>& positions_ws() const { return positions_ws_; }

@@ -51,7 +51,8 @@ void fill_rows(const Grid& grid, std::size_t count, std::vector<bool> inside, st
   const std::size_t row = grid.counts[0], slice = row * grid.counts[1];
   const auto left = [&] { return std::find(inside.begin(), inside.end(), true) != inside.end(); };
   while (left()) {
-    // Fills one layer of probes from the previous state, so that the order of probes does not matter.
+    // Fills one layer of probes from the previous state, so that the result does not depend on the order of
+    // probes.
     const std::vector<bool> before = inside;
     for (std::size_t p = 0; p < grid.size(); ++p) {
       if (!before[p]) continue;
@@ -87,7 +88,7 @@ void fill_inside(nook::probe::Probes& probes, const std::vector<bool>& inside) {
 namespace {
 
 constexpr float clearance_share = 0.1f;  // share of the shortest spacing
-constexpr int steps = 4;                 // number of steps in each direction along each axis
+constexpr int steps = 4;                 // steps in each direction along each axis
 constexpr float reach = 0.45f;           // distance of the last step, in spacings
 
 float clearance(const LitScene& scene, Vec3 position_ws) {

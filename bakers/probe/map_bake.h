@@ -11,7 +11,7 @@
 
 namespace nook::bake::probe {
 
-// Samples of a map, to fit a probe to.
+// Samples of a map that a probe is fitted to.
 
 struct Samples {
   std::vector<float> direction, radiance;  // 3 per sample
@@ -26,8 +26,8 @@ void add_samples(nook::probe::Fit& fit, const Samples& samples, std::size_t firs
 // Draws independent directions, uniform over the region.
 Samples uniform_samples(const Environment& map, const Region& region, std::size_t count, std::uint64_t seed);
 
-// Draws independent directions: half of them in proportion to luminance, half uniformly. So no weight exceeds
-// twice the weight of a uniform sample.
+// Draws half of the directions in proportion to luminance and half uniformly, all independently. So no weight
+// is more than twice the weight of a uniform sample.
 inline constexpr float uniform_share = 0.5f;
 Samples luminance_samples(const Environment& map, const LightSampler& sampler, const Region& region,
                           std::size_t count, std::uint64_t seed);
@@ -37,9 +37,9 @@ Samples texel_samples(const Environment& map, const Region& region, std::uint64_
 
 enum class Sampling : std::uint8_t {
   automatic = 0,  // texels for methods that solve a system; luminance for running averages, which a sun in a
-                  // late sample would disturb
+                  // late sample would spoil
   texels = 1,     // every texel once, in random order
-  luminance = 2,  // half of the directions by luminance
+  luminance = 2,  // half in proportion to luminance, half uniformly
   uniform = 3
 };
 
@@ -47,11 +47,11 @@ struct MapBakeSettings {
   nook::probe::Basis basis;
   nook::probe::FitSettings fit;
   Sampling sampling = Sampling::automatic;
-  std::uint32_t samples = 1u << 20;  // for luminance and uniform
+  std::uint32_t samples = 1u << 20;  // number of samples for luminance and uniform
   std::uint64_t seed = 1;
 };
 
-// Draws the samples for a bake, as chosen by settings.sampling.
+// Draws the samples of a bake with the method that settings.sampling selects.
 Samples bake_samples(const Environment& map, const MapBakeSettings& settings);
 
 // Returns one coefficient per basis function. `progress` counts samples. If it returns false, bake_map throws
@@ -64,8 +64,8 @@ inline std::vector<Vec3> bake_map(
   return bake_map(settings, bake_samples(map, settings), progress);
 }
 
-// Returns the amplitudes for glossy reflection, see sdk/src/probe/gloss.h. The suns of the map are left out,
-// because a host draws them as lights. `basis` must be Gaussians. Integrals are exact, whatever method the
+// Returns the amplitudes for glossy reflection (sdk/src/probe/gloss.h). They leave out the suns of the map,
+// because a host draws suns as lights. `basis` must be Gaussians. Integrals are exact, whatever method the
 // bake uses.
 std::vector<Vec3> map_gloss(const Environment& map, const nook::probe::Basis& basis);
 

@@ -9,8 +9,8 @@
 namespace nook::bake::probe {
 namespace {
 
-// The maximum change of a basis function within a part of a texel. The error of the midpoint rule is 1/24 of
-// the square of this change.
+// A texel is divided until a basis function changes by at most this amount within a part. The error of the
+// midpoint rule is 1/24 of the square of this change.
 constexpr double finest_step = 0.1;
 
 std::uint32_t divisions(const Environment& map, const Basis& basis) {
@@ -78,7 +78,7 @@ MapIntegrals integrate(const Environment& map, const Region& region) {
 std::vector<Channels> moments(const Environment& map, const Basis& basis) {
   const std::uint32_t parts = divisions(map, basis);
   const Region region = region_of(basis);
-  // Rows are added in order afterwards, so that the result has the same bits on any number of threads.
+  // Rows are added in order at the end, so that the result has the same bits on any number of threads.
   std::vector<std::vector<Channels>> of_row(map.height(), std::vector<Channels>(basis.count));
   tbb::parallel_for(std::uint32_t(0), map.height(), [&](std::uint32_t row) {
     std::array<float, nook::probe::max_functions> value;
@@ -108,7 +108,7 @@ std::vector<Channels> moments(const Environment& map, const Basis& basis) {
 
 std::vector<Vec3> map_irradiance(const Environment& map, const Region& region,
                                  std::span<const Vec3> normals) {
-  constexpr std::size_t block = 1024;  // a float sum of this many terms is precise enough
+  constexpr std::size_t block = 1024;  // a float sum of this many terms is accurate enough
   const TexelArrays texels = texel_arrays(map, region);
   std::vector<Vec3> irradiance(normals.size());
   tbb::parallel_for(std::size_t(0), normals.size(), [&](std::size_t n) {

@@ -16,7 +16,7 @@ using nook::probe::Domain;
 
 using Channels = std::array<double, 3>;  // RGB
 
-// The part of the sphere that is used.
+// The part of the sphere whose light counts.
 struct Region {
   Domain domain = Domain::sphere;
   Vec3 up{0, 1, 0};  // the hemisphere's axis
@@ -41,8 +41,8 @@ std::vector<Channels> moments(const Environment& map, const Basis& basis);
 // treated as a point light at its centre.
 std::vector<Vec3> map_irradiance(const Environment& map, const Region& region, std::span<const Vec3> normals);
 
-// Returns the same light at a lower resolution. Halves both sides as long as the map has more than
-// most_columns columns and an even number of rows and columns.
+// Returns the map at a lower resolution. Halves both sides while the map has more than most_columns columns
+// and an even number of rows and columns.
 Environment reduced(Environment map, std::uint32_t most_columns);
 
 }  // namespace nook::bake::probe

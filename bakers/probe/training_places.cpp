@@ -15,7 +15,7 @@ namespace {
 using nook::probe::Grid;
 
 constexpr std::uint32_t rays_for_each_open_place = 4;
-constexpr int most_draws = 16;  // attempts to find an origin outside solids
+constexpr int most_draws = 16;  // attempts per origin to find a point outside solids
 
 struct Box {
   Vec3 low, high;

@@ -1,5 +1,5 @@
-// Places in the cells of a grid, with path-traced irradiance. The walls and coefficients of a grid are fitted
-// to these places.
+// Places in the cells of a grid, with path-traced irradiance. The walls and the coefficients of a grid are
+// fitted to them.
 #pragma once
 
 #include <array>

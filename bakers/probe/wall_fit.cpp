@@ -26,13 +26,13 @@ constexpr std::size_t most_candidates = 24;
 constexpr std::size_t least_places = 4;  // a side with fewer places gets no mask of its own
 constexpr double plane_gain = 0.92;      // a plane must reduce the error to less than this share
 // A mask must reduce the error by this share for each corner that it leaves out. With a smaller share,
-// neighbouring cells would choose different masks, with visible seams.
+// neighbouring cells would choose different masks, and you would see seams.
 constexpr double corner_gain = 0.1;
 constexpr double small_error = 2.5e-5;  // squared relative error of 0.5 %, too small for a wall
 constexpr float dark_share = 0.1f;  // share of a cell's mean light; all darker places have the same weight
-constexpr float same_normal = 0.999f, same_offset = 0.02f;  // cosine, and spacings
+constexpr float same_normal = 0.999f, same_offset = 0.02f;  // cosine of the angle, and units of the spacing
 
-// A training place, and the light that each corner's probe alone would give there.
+// A training place, and the light that it would get from each corner's probe alone.
 struct Sample {
   Vec3 in_cell;
   std::array<float, 8> weight;
@@ -75,7 +75,7 @@ Masked best_mask(const std::vector<const Sample*>& samples) {
   return best;
 }
 
-// A part of a cell. The planes chosen so far bound it.
+// A part of a cell, bounded by the planes that are chosen so far.
 struct Side {
   std::size_t number = 0;
   std::vector<const Sample*> samples;
@@ -86,7 +86,7 @@ bool is_behind(const WallPlane& plane, const Sample& sample) {
   return dot(plane.normal, sample.in_cell) + plane.offset < 0;
 }
 
-// Splits each side in two by a plane. A half with too few places gets the mask of the undivided side.
+// Splits each side in two by a plane. A half with too few places gets the mask of the whole side.
 std::vector<Side> split(const std::vector<Side>& sides, const WallPlane& plane, std::size_t k) {
   std::vector<Side> parts;
   for (const Side& side : sides) {
@@ -163,7 +163,7 @@ CellWalls fit_cell(const std::vector<Sample>& samples) {
     if (best.empty()) break;
     sides = std::move(best);
   }
-  // Sides behind missing planes contain no places and are never looked up.
+  // Nothing lies behind a missing plane, so look-ups never use the sides there.
   for (const Side& side : sides) walls.counts[side.number] = side.masked.mask;
   return walls;
 }
@@ -183,8 +183,8 @@ Sample sample_of(const Probes& probes, const TrainingPlaces& places, std::size_t
   sample.truth = places.irradiance[i];
   sample.on_surface = places.on_surface[i] != 0;
   sample.importance = 1;
-  // Planes lie behind the surface, at a quarter of the bias. So lookups from this surface are in front of the
-  // plane, and lookups from the other face of even a thin sheet are behind it.
+  // A plane lies behind its surface, at a quarter of the bias. So look-ups from this surface are in front of
+  // the plane. Look-ups from the other face of a sheet are behind it, even if the sheet is thin.
   const Vec3 spacing = probes.grid.spacing_ws, across = by_channel(normal, spacing);
   const Vec3 unit = across * (1 / length(across));
   const Vec3 lift{normal.x * bias / spacing.x, normal.y * bias / spacing.y, normal.z * bias / spacing.z};
@@ -192,8 +192,8 @@ Sample sample_of(const Probes& probes, const TrainingPlaces& places, std::size_t
   return sample;
 }
 
-// Makes errors relative to the light at their place, so that errors in a dark room next to a bright one still
-// have an effect.
+// Makes errors relative to the light at their place. So errors in a dark room count, even next to a bright
+// room.
 void weigh(std::vector<Sample>& samples) {
   double mean = 0;
   for (const Sample& s : samples) mean += double(luminance(s.truth)) / double(samples.size());
@@ -274,8 +274,8 @@ double& channel(Eigen::MatrixXd& m, Eigen::Index row, int c) {
   return m(row, c);
 }
 
-// Probes that no light reaches, while others are lit. They keep their coefficients. Masks choose probes by
-// their light, so dim places outside may use a dark probe, and the fit would light the sealed place for them.
+// Returns true for probes that no light reaches while others are lit. They keep their coefficients. A mask
+// may let a dim place outside use such a probe. A fit to this place would also light the sealed-off room.
 std::vector<bool> sealed_probes(const Probes& probes) {
   double mean = 0;
   for (std::size_t p = 0; p < probes.grid.size(); ++p)
@@ -326,8 +326,8 @@ void fit_to_surfaces(Probes& probes, const TrainingPlaces& places, const Surface
     channel(rest, j, 1) = importance * (double(truth.y) - found[1]);
     channel(rest, j, 2) = importance * (double(truth.z) - found[2]);
   }
-  // These rows keep the coefficients near the baked ones. The change of a coefficient is weighted by how much
-  // its band affects irradiance.
+  // These rows keep the coefficients close to the baked ones. The change of each coefficient is weighted by
+  // how much its band affects irradiance.
   for (Eigen::Index u = 0; u < unknowns; ++u) {
     const auto k = std::uint32_t(u % functions);
     const std::size_t band = k == 0 ? 0 : k < 4 ? 1 : 2;

@@ -23,7 +23,7 @@ IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t v
   const Vec3 normal = mesh.normal[vertex];
   const Vec3 origin = mesh.position[vertex] + normal * reflection.origin_offset;
   const auto& cells = reflection.cells;
-  // Finds the directions that see the sky first, because most do, and packets of rays find them faster.
+  // Finds the directions that see the sky first. Most directions do, and packets of rays find them faster.
   std::vector<VisibleDirection> open;
   visible_directions(reflection.scene, origin, normal, cells.direction, nullptr, open);
   auto next = open.begin();

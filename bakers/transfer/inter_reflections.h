@@ -22,18 +22,18 @@ struct Reflection {
   const SurfaceHoles* holes = nullptr;     // null: none
 };
 
-// Returns the irradiance of a vertex for each band of light, from the directions that it sees.
+// Returns the irradiance of a vertex for each band of light, from the directions in which it sees the sky.
 IrradianceBands direct_irradiance(Vec3 normal, const nook::transfer::CubeCells& cells,
                                   std::span<const VisibleDirection> visible);
 
-// Returns the irradiance that a vertex receives from surfaces. The irradiance of these surfaces at their
-// vertices is `before`. The surfaces reflect all of it diffusely, and only on the side that their normals are
-// on. The calling thread must have a FlushDenormals.
+// Returns the irradiance that a vertex receives from surfaces. `before` is the irradiance of the surfaces at
+// their vertices. The surfaces reflect all of it diffusely, but only on the side of their normals. The
+// calling thread must have a FlushDenormals object.
 IrradianceBands reflected_irradiance(const Reflection& reflection, std::size_t vertex,
                                      std::span<const IrradianceBands> before);
 
-// Computes the reflected light of the transfer from the direct irradiance of all vertices, one reflection
-// after another.
+// Computes the reflected light of the transfer, one reflection after another. `received` is the direct
+// irradiance of all vertices.
 void reflect(const Reflection& reflection, std::uint32_t bounces, VertexLoop& loop,
              std::vector<IrradianceBands> received, nook::transfer::Transfer& transfer);
 

@@ -46,26 +46,27 @@ using nook::transfer::PaperTransfer;
 using nook::transfer::Transfer;
 using tensor::Matrix;
 
-constexpr std::size_t most_samples = 768;    // vertices that choose the common combinations of lobes
-constexpr std::size_t seed_vertices = 4096;  // vertices that choose the first clusters
+constexpr std::size_t most_samples = 768;    // vertices that the common combinations of lobes are chosen from
+constexpr std::size_t seed_vertices = 4096;  // vertices that the first clusters are chosen from
 constexpr Index seed_axes = 24;
 
 // Lobes overlap, so a least-squares fit gives neighbouring lobes amplitudes of opposite signs, which mostly
 // cancel. We therefore weight the error of a matrix T by its visible effect under typical light l.
-// LightMetric is the factor C of the second moment of light, S = E[l l^T] = C C^T. Then |C^T T| is the root
-// mean square size of T^T l.
+// LightMetric is the factor C of the second moment of light: S = E[l l^T] = C C^T. Then |C^T T| is the root
+// mean square of |T^T l|.
 struct LightMetric {
   MatrixXd root, inverse_transpose;  // C and C^-T
 };
 
-// The expected light has the power (band + 1)^-decay of natural maps in each band (R. Dror, A. Willsky,
-// E. Adelson: Statistical Characterization of Real-World Illumination, 2004), and no preferred direction.
+// We expect light with no preferred direction. As in natural maps, its power in each band is proportional to
+// (band + 1)^-decay (R. Dror, A. Willsky, E. Adelson: Statistical Characterization of Real-World
+// Illumination, 2004).
 LightMetric light_metric(std::uint32_t lobes) {
   const double sharpness = double(nook::transfer::sharpness_of(lobes));
   std::vector<Vec3> axes(lobes);
   nook::transfer::lobe_axes(axes);
   constexpr double decay = 2;
-  // The zonal coefficients of a lobe fall like a normal distribution.
+  // The zonal coefficients of a lobe fall off like a normal distribution.
   const auto bands = Index(std::ceil(3 * std::sqrt(sharpness))) + 2;
   std::vector<double> power;
   for (Index l = 0; l <= bands; ++l) {
@@ -112,13 +113,13 @@ CommonBasis common_basis(const LightMetric& metric, const MatrixXd& sum, std::si
   return out;
 }
 
-// Returns the step between vertices that choose the first clusters.
+// Returns the step between the vertices that the first clusters are chosen from.
 Index seed_step(Index count) {
   return std::max<Index>(count / Index(seed_vertices), 1);
 }
 
-// Counts the distinct rows among these vertices, up to `enough`. There cannot be more clusters than distinct
-// rows.
+// Counts the rows of these vertices that differ in their norm, up to `enough`. There cannot be more clusters
+// than distinct rows.
 std::size_t distinct_rows(const Eigen::Map<const Matrix>& rows, std::size_t enough) {
   std::set<float> norms;
   for (Index i = 0; i < rows.rows() && norms.size() < enough; i += seed_step(rows.rows()))
@@ -154,7 +155,7 @@ std::vector<std::uint32_t> first_clusters(const Eigen::Map<const Matrix>& rows, 
     (means.rowwise() - points.row(i)).rowwise().squaredNorm().minCoeff(&nearest);
     out[std::size_t(i)] = std::uint32_t(nearest);
   }
-  // The vertices that chose the clusters keep their groups, so that no group is empty.
+  // The vertices that the clusters were chosen from keep their groups, so that no group is empty.
   for (Index i = 0; i < chosen.rows(); ++i) out[std::size_t(i * step)] = group[std::size_t(i)];
   return out;
 }
@@ -164,7 +165,8 @@ std::uint16_t finite_half(double value) {
 }
 
 // Packs the parts of a fit as half floats. Each column of a lobe basis is scaled so that its largest number
-// is 1, and the cores absorb the factor. All cores share one scale, so that their largest number is 2^12.
+// is 1, and the cores absorb the factor. All cores have one common scale, which makes their largest number
+// 2^12.
 PaperTransfer packed(const tensor::ClusteredFit& fit, const MatrixXd& expand, std::uint32_t light_modes) {
   PaperTransfer paper;
   const auto vertex_rank = Index(fit.ranks[0]), lobe_rank = Index(fit.ranks[1]),
@@ -233,7 +235,7 @@ Transfer bake_paper(const SurfaceMesh& mesh, const BakeSettings& settings, const
   transfer.hashes = hashes_of(mesh);
   if (settings.holes) transfer.votf_hash = settings.holes->votf_hash;
 
-  // Finds the common basis from some of the vertices. Then it reduces all vertices at once.
+  // Finds the common basis from a sample of the vertices. Then reduces all vertices.
   const std::size_t stride = (count + most_samples - 1) / most_samples,
                     samples = (count + stride - 1) / stride;
   VertexLoop loop(samples + count * (1 + settings.bounces), progress);

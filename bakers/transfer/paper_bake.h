@@ -9,11 +9,11 @@
 
 namespace nook::bake::transfer {
 
-// Traces the raw data of the paper's form: for each vertex the matrix from lobes to the light modes of a
+// Traces the raw data of the paper's form: for each vertex, the matrix from lobes to the light modes of a
 // material.
 
-// The scene and the material for all vertices. The referenced objects must outlive the computation of the
-// matrices.
+// The scene and the material for all vertices. The referenced objects must exist as long as matrices are
+// computed.
 struct MatrixSource {
   const SurfaceMesh& mesh;
   const RayScene& scene;
@@ -31,14 +31,14 @@ struct MatrixWorkspace {
   tensor::Matrix matrix;  // lobes x 3 light modes
 };
 
-// Sets work.matrix to the integrals of visibility, lobe and light basis at a vertex. The calling thread must
-// have a FlushDenormals.
+// Sets work.matrix to the integrals of visibility times lobe times light basis at a vertex. The calling
+// thread must have a FlushDenormals object.
 void light_matrix(const MatrixSource& source, std::uint32_t lobes, std::size_t vertex, MatrixWorkspace& work);
 
 struct PaperSettings {
-  // If 0, there is one cluster per 360 vertices, as in the paper's Table II, up to 256 clusters.
+  // 0 means one cluster per 360 vertices, as in the paper's Table II, up to 256 clusters.
   std::uint32_t clusters = 0;
-  std::uint32_t lobe_rank = 64, vertex_rank = 12;  // the paper's
+  std::uint32_t lobe_rank = 64, vertex_rank = 12;  // as in the paper
   // All matrices are first reduced to this number of combinations of lobes. The fit then needs memory for 4 *
   // vertices * common_rank * 3 * light modes floats.
   std::uint32_t common_rank = 128;
@@ -47,13 +47,13 @@ struct PaperSettings {
   std::uint64_t seed = 1;
 };
 
-// Throws Failure(INVALID_ARGUMENT) for numbers out of range.
+// Throws Failure(INVALID_ARGUMENT) if a number is out of range.
 void check_paper_bake(const SurfaceMesh& mesh, const PaperSettings& paper);
 
-// Uses the bounces and holes of `settings` like bake_transfer. `progress` also counts like in bake_transfer,
-// and starts with the matrices of the vertices. `fitted` counts clusters over all iterations. Returns the
-// same bits for the same seed on any number of threads. Throws Failure: like check_bake and check_paper_bake,
-// and CANCELLED.
+// Uses the bounces and holes of `settings` like bake_transfer. `progress` first counts the vertices that the
+// common basis is found from, then counts as in bake_transfer. `fitted` counts clusters over all iterations.
+// Returns the same bits for the same seed on any number of threads. Throws the same failures as check_bake
+// and check_paper_bake, and CANCELLED.
 nook::transfer::Transfer bake_paper(const SurfaceMesh& mesh, const BakeSettings& settings,
                                     const PaperSettings& paper, const nook::material::MaterialTables& tables,
                                     const Progress& progress = {}, const Progress& fitted = {});

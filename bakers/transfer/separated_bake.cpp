@@ -20,7 +20,7 @@ namespace {
 using nook::transfer::CubeCells;
 using nook::transfer::Transfer;
 
-// If the share of a lobe above a vertex's horizon is smaller than this, the lobe counts as 0.
+// A lobe counts as 0 if less than this share of it is above the vertex's horizon.
 constexpr float dark = 1e-4f;
 
 // The memory that one thread reuses for all its vertices.

@@ -51,10 +51,10 @@ float bilinear(const Number* image, std::uint32_t width, std::uint32_t height, f
 }
 
 // Computes the mean visibility of each texel. Values are interpolated linearly, but their mapping to
-// visibility is not linear. So each texel is sampled at several points.
+// visibility is not linear, so each texel is sampled at several points.
 void fill_finest(const MaterialTables& tables, Vec3 view, std::vector<float>& values,
                  std::vector<float>& cover) {
-  constexpr std::uint32_t points = 4;  // per side
+  constexpr std::uint32_t points = 4;  // sample points per side of a texel
   const std::uint32_t width = tables.votf.width, height = tables.votf.height;
   const auto at = [](std::uint32_t i, std::uint32_t size) { return (float(i) + 0.5f) / float(size); };
   nook::material::Sample sample;
@@ -121,7 +121,7 @@ HoleTable make_hole_table(const MaterialTables& tables) {
 
 namespace {
 
-// The corners of a triangle, and their barycentric weights at the point that a ray hits.
+// The corners of a triangle, and their barycentric weights at the point where a ray hits.
 struct Corners {
   std::array<std::uint32_t, 3> vertex;
   std::array<float, 3> weight;
@@ -154,7 +154,7 @@ nook::transfer::Frame frame_at(const SurfaceMesh& mesh, const RayHit& hit) {
 std::optional<SurfaceHoles> surface_holes(const SurfaceMesh& mesh, const HoleTable* table, float tiles,
                                           std::size_t rays) {
   if (!table) return {};
-  // The side of an average cell of the sphere.
+  // The width of an average cell of the sphere.
   const float spread_rad = std::sqrt(4 * std::numbers::pi_v<float> / float(rays));
   return SurfaceHoles(mesh, *table, tiles, spread_rad);
 }

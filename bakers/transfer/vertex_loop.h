@@ -14,11 +14,11 @@
 
 namespace nook::bake::transfer {
 
-// Called from worker threads, one call at a time. Return false to stop.
+// Worker threads call the function, but never two at the same time. Return false to stop.
 using Progress = std::function<bool(std::size_t done, std::size_t total)>;
 
-// Runs body(vertex, workspace) on all threads for vertices from 0 on, and counts the vertices for the
-// progress. Blocks start at multiples of `block`. All vertices of a block use the same workspace.
+// Runs body(vertex, workspace) for each vertex, on all threads, and counts the vertices for the progress.
+// Blocks start at multiples of `block`. All vertices of a block use the same workspace.
 class VertexLoop {
  public:
   static constexpr std::size_t block = 64;

@@ -46,8 +46,8 @@ void visible_directions(const RayScene& scene, Vec3 origin, Vec3 normal, std::sp
 
 namespace {
 
-// Lobes are cut off at exp(-reach) = 1e-4 of their height. This is accurate enough, because a share has 8
-// bits.
+// Lobes are cut off where they fall to exp(-reach) = 1e-4 of their height. This is accurate enough for a
+// share with 8 bits.
 constexpr float reach = 9;
 
 }  // namespace
