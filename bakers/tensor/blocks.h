@@ -1,5 +1,5 @@
-// Runs work in blocks. The bounds of the blocks depend only on the size. So results that are combined in
-// order have the same bits on any number of threads.
+// Runs work in blocks. The bounds of the blocks depend only on the amount of work. So results that are added
+// in the order of the blocks have the same bits on any number of threads.
 #pragma once
 
 #include <tbb/parallel_for.h>

@@ -48,7 +48,7 @@ ClusteredFit as_result(WorkingFit&& fit, Reduction&& reduction, const TensorView
 }
 
 // Checks the input, reduces global modes and fits the initial clusters. Then repeats `step` until the error
-// hardly falls. If a step raises the error, it is undone and the fit ends.
+// hardly falls any more. If a step raises the error, undoes the step and ends the fit.
 ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, const OnClustered& progress,
                      const Step& step) {
   check_tensor(a);
@@ -79,15 +79,15 @@ ClusteredFit iterate(const TensorView& a, const ClusteredSettings& settings, con
   return result;
 }
 
-// Returns the squared norm of each sub-tensor after projection on the cluster: the objective of (6).
+// Returns the squared norm of each sub-tensor after its projection onto the cluster: the objective of (6).
 Eigen::VectorXd projected_norms(const TensorView& reduced, const WorkingCluster& cluster, std::size_t mode) {
   const Tensor projected = project(reduced, cluster.parts.basis);
   const Matrix v = unfold(dual_basis(cluster.parts.core, mode).v, mode);
   return (unfold(projected, mode) * v.transpose()).rowwise().squaredNorm().cast<double>();
 }
 
-// Returns, for each cluster, the sub-tensors that could move to it: its members, and all sub-tensors for
-// which the cluster's mean is one of the nearest means.
+// For each cluster, returns the sub-tensors that could belong to it next: its members, and the sub-tensors
+// that have the cluster's mean among their nearest means.
 std::vector<std::vector<std::size_t>> tries(const WorkingFit& fit, const TensorView& reduced,
                                             std::size_t nearest) {
   const auto count = Eigen::Index(fit.membership.size()), clusters = Eigen::Index(fit.clusters.size());
@@ -126,7 +126,7 @@ std::vector<std::vector<std::size_t>> tries(const WorkingFit& fit, const TensorV
   return lists;
 }
 
-// Moves each sub-tensor to the cluster that preserves most of its norm, and fills empty clusters. Returns the
+// Moves each sub-tensor to the cluster that keeps most of its norm, and fills empty clusters. Returns the
 // number of filled clusters.
 std::size_t classify(WorkingFit& fit, const TensorView& reduced, std::size_t nearest) {
   const std::size_t sub_tensors_count = fit.membership.size();
@@ -160,8 +160,8 @@ std::size_t classify(WorkingFit& fit, const TensorView& reduced, std::size_t nea
   return filled;
 }
 
-// Fits each cluster by an N-SVD that starts from its present bases. The first step of the sweep computes the
-// mixing rows, also for new members. Returns the squared error.
+// Fits each cluster by an N-SVD that starts from the cluster's present bases. The first step of the sweep
+// computes the mixing rows, also for new members. Returns the squared error.
 double update(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
               const OnClustered& progress, int iteration, double objective) {
   double error = 0;

@@ -70,8 +70,8 @@ std::vector<double> sub_tensor_norms(const TensorView& a, std::size_t mode) {
   return norms;
 }
 
-// Returns the clusters of each sub-tensor. A sub-tensor keeps its old clusters if the search found equally
-// many, but none better.
+// Returns the clusters of each sub-tensor. A sub-tensor keeps its old clusters if they explain more than the
+// clusters that the search finds. If the number of clusters K has changed, it never keeps them.
 std::vector<SubTensorMix> search_all(const AtomGram& atoms, const MatrixXd& products,
                                      const WorkingFit& before, const ClusteredSettings& settings) {
   std::vector<SubTensorMix> mixes(std::size_t(products.rows()));
@@ -86,7 +86,7 @@ std::vector<SubTensorMix> search_all(const AtomGram& atoms, const MatrixXd& prod
   return mixes;
 }
 
-// Handles sub-tensors that moved to an empty cluster. Projects them again on their other clusters. The empty
+// For sub-tensors that moved to an empty cluster, projects them again onto their other clusters. The empty
 // cluster has no atoms yet, so its weight is 0 until the update stage.
 void reweigh(std::vector<SubTensorMix>& mixes, const std::vector<std::size_t>& changed, const WorkingFit& fit,
              const AtomGram& atoms, const MatrixXd& products) {
@@ -112,8 +112,8 @@ void reweigh(std::vector<SubTensorMix>& mixes, const std::vector<std::size_t>& c
   }
 }
 
-// Post-processing (section 4.2.3), with U_{m,c} in coordinates of V_{m,c}: U = P S Q^T. The mixing rows
-// become P, which has orthonormal columns. The core becomes S Q^T V.
+// Post-processing (section 4.2.3), with U_{m,c} in coordinates of V_{m,c}: U = P S Q^T. P has orthonormal
+// columns and becomes the mixing rows. S Q^T V becomes the core.
 void orthonormalise(WorkingCluster& cluster, const MatrixXd& weights, const Tensor& v, std::size_t mode) {
   if (weights.rows() == 0) {  // the cluster stays empty
     cluster.mixing = Matrix(0, weights.cols());
@@ -129,7 +129,7 @@ void orthonormalise(WorkingCluster& cluster, const MatrixXd& weights, const Tens
   cluster.parts.core = mode_product(v, mode, w.cast<float>());
 }
 
-// Marks filled clusters as not fitted, so that their fit starts again. Returns their number.
+// Marks filled clusters as not fitted, so that they are fitted from the start. Returns their number.
 std::size_t mark_filled(WorkingFit& fit, const std::vector<std::size_t>& changed) {
   std::size_t splits = 0;
   for (std::size_t e : changed) {
@@ -235,7 +235,7 @@ void update_stage(WorkingFit& fit, Tensor& residual, const ClusteredSettings& se
     WorkingCluster& cluster = fit.clusters[c];
     report(progress, iteration, settings, c, objective);
     if (cluster.members.empty()) continue;
-    // R'_c: the residual of all clusters plus this cluster's own part, only for its members.
+    // R'_c: the residual of all clusters plus this cluster's own part, only for the cluster's members.
     Tensor shrunk = sub_tensors(residual, fit.mode, cluster.members);
     add(shrunk, expand_members(cluster, fit.mode), 1);
     fit_members(cluster, shrunk, settings);

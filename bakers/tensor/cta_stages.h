@@ -12,9 +12,9 @@ namespace nook::bake::tensor {
 // Clusters that no sub-tensor chose (section 5.3 of the paper).
 
 // Fills each empty cluster by splitting the cluster with the largest sum of errors. The half of its members
-// with the larger errors moves to the empty cluster: their entries in `membership` (I_m x K) change. Returns
-// the indices of the changed entries. A cluster with one member is never split. If no other cluster is left,
-// the empty clusters stay empty.
+// with the larger errors moves to the empty cluster, which changes their entries in `membership` (I_m x K).
+// Returns the indices of the changed entries. Never splits a cluster with one member. If no cluster has two
+// members, the empty clusters stay empty.
 std::vector<std::size_t> split_into_empty(std::vector<std::uint32_t>& membership, std::size_t mixture,
                                           std::size_t clusters, const std::vector<double>& error);
 
@@ -23,8 +23,8 @@ std::vector<std::size_t> split_into_empty(std::vector<std::uint32_t>& membership
 std::size_t clustering_stage(WorkingFit& fit, const TensorView& reduced, const ClusteredSettings& settings,
                              Tensor& residual);
 
-// Fits one cluster after the other, (20) to (22). Each is fitted to the part of its members that the other
-// clusters do not explain. `residual` must be A_G - A^, and is updated to the new A_G - A^.
+// Fits the clusters one after another, (20) to (22). Each cluster is fitted to the part of its members that
+// the other clusters do not explain. Pass A_G - A^ as `residual`; it is updated to the new A_G - A^.
 void update_stage(WorkingFit& fit, Tensor& residual, const ClusteredSettings& settings,
                   const OnClustered& progress, int iteration, double objective);
 

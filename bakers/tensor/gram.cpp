@@ -14,7 +14,7 @@ using Eigen::MatrixXd;
 using Rows = Eigen::Map<const Matrix, 0, Eigen::OuterStride<>>;
 
 // The number of columns of an unfolding that are summed in floats. The error of such a sum is about 1e-7
-// times the root of this number, which is below the rounding error of the data.
+// times the square root of this number, which is below the rounding error of the data.
 constexpr std::size_t float_columns = 512;
 // The maximum number of parts of a sum. Each part is a task with its own sum.
 constexpr std::size_t most_parts = 32;
@@ -132,7 +132,7 @@ std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<
                   share.size(), multiple, a.order());
   std::vector<std::size_t> ranks(a.order());
   for (std::size_t n = 0; n < a.order(); ++n) {
-    // The loss at rank r is the sum of all eigenvalues except the r largest. Eigenvalues are in ascending
+    // At rank r, the loss is the sum of all eigenvalues except the r largest. Eigenvalues are in ascending
     // order.
     const Eigen::VectorXd energy = symmetric_eigenvalues(gram(a, n)).cwiseMax(0.0);
     const double allowed = share[n] * energy.sum();

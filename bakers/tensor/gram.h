@@ -7,8 +7,8 @@
 
 namespace nook::bake::tensor {
 
-// Returns uf_n(A) uf_n(B)^T. Entry (i, j) is the inner product <A_<n_i>, B_<n_j>>. A and B may differ in the
-// size of mode n. Products and sums within a block are in floats. Sums over blocks are in doubles.
+// Returns uf_n(A) uf_n(B)^T. Entry (i, j) is the inner product <A_<n_i>, B_<n_j>>. The size of mode n may
+// differ between A and B. Within a block, products and sums are in floats. Sums over blocks are in doubles.
 Eigen::MatrixXd cross_gram(const TensorView& a, const TensorView& b, std::size_t mode);
 
 // Returns uf_n(A) uf_n(A)^T.
@@ -28,12 +28,12 @@ struct PrincipalComponents {
 PrincipalComponents principal_components(const Matrix& samples, std::size_t count);
 
 // Returns the coefficients of the samples, one sample per row. Distances between rows approximate distances
-// between samples. The error is the part that the components leave out.
+// between samples, except for the part that the components do not represent.
 Matrix project(const Matrix& samples, const PrincipalComponents& components);
 
-// Returns a rank for each mode, as in section 6 of the paper: the smallest one with || A - A^ ||^2 <=
-// share[n] || A ||^2 when only this mode is reduced. Ranks are rounded up to multiples of `multiple`, at most
-// I_n. Shares below 1e-6 have no meaning, because they are below the rounding error of floats.
+// Returns a rank for each mode, as in section 6 of the paper: the smallest rank with || A - A^ ||^2 <=
+// share[n] || A ||^2 if only this mode is reduced. Ranks are rounded up to multiples of `multiple`, but are
+// at most I_n. Shares below 1e-6 are below the rounding error of floats and have no meaning.
 std::vector<std::size_t> ranks_for_error(const TensorView& a, const std::vector<double>& share,
                                          std::size_t multiple = 4);
 

@@ -16,8 +16,8 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-// A share of the largest eigenvalue. Along directions with a smaller eigenvalue, we treat clusters as
-// linearly dependent, because products are summed in floats.
+// A share of the largest eigenvalue. Products are summed in floats, so we treat clusters as linearly
+// dependent along directions with a smaller eigenvalue.
 constexpr double dependence = 1e-6;
 
 VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products) {
@@ -31,7 +31,7 @@ VectorXd solve_by_pseudo_inverse(const MatrixXd& gram, const VectorXd& products)
 
 VectorXd solve(const MatrixXd& gram, const VectorXd& products) {
   const Eigen::LLT<MatrixXd> factor(gram);
-  // Atoms have norm 1. A small pivot means that an atom depends linearly on the previous atoms.
+  // Atoms have norm 1. A small pivot shows that an atom depends linearly on the atoms before it.
   if (factor.info() == Eigen::Success &&
       factor.matrixLLT().diagonal().array().square().minCoeff() > 10 * dependence)
     return factor.solve(products);
@@ -54,8 +54,7 @@ SubTensorMix project_on(const AtomGram& atoms, const VectorXd& products,
   }
   SubTensorMix mix;
   mix.weights = solve(gram, chosen);
-  // The squared norm of A minus the squared norm of A - sum w O. It equals w . p if w solves the normal
-  // equations exactly.
+  // || A ||^2 - || A - sum w O ||^2. This equals w . p if w solves the normal equations exactly.
   mix.explained = 2 * mix.weights.dot(chosen) - mix.weights.dot(gram * mix.weights);
   mix.clusters = std::move(clusters);
   return mix;
@@ -91,7 +90,7 @@ SubTensorMix search_greedy(const AtomGram& atoms, const VectorXd& products, std:
 
 SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensorMix mix) {
   const std::size_t count = mix.clusters.size();
-  // Stops after `count` consecutive exchanges without a gain.
+  // Stops after `count` exchanges in a row without a gain.
   for (std::size_t k = 0, idle = 0; idle < count; k = (k + 1) % count) {
     SubTensorMix best = mix;
     for (std::uint32_t c = 0; c < atoms.clusters; ++c) {
@@ -110,7 +109,7 @@ SubTensorMix exchange(const AtomGram& atoms, const VectorXd& products, SubTensor
 }
 
 SubTensorMix search_exhaustive(const AtomGram& atoms, const VectorXd& products, std::size_t mixture) {
-  // Tries all sets in lexicographic order. If several are equally good, the first one wins.
+  // Tries all sets in lexicographic order. Of equally good sets, takes the first one.
   std::vector<std::uint32_t> set(mixture);
   std::iota(set.begin(), set.end(), 0u);
   SubTensorMix best = project_on(atoms, products, set);

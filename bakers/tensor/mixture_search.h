@@ -1,8 +1,8 @@
 // The clustering stage for one sub-tensor: chooses clusters and their coefficients.
 //
-// All coordinates refer to the dual bases V_{m,c} of equation (7). Their rows are orthonormal. The atoms of
+// All coordinates refer to the dual bases V_{m,c} of equation (7), whose rows are orthonormal. The atoms of
 // cluster c are O_c = fold(V_{m,c}) x_{n != m} U_{n,c}, and a sub-tensor is sum_k w_k O_{c_k}. So the search
-// reads only inner products. With p_c = <A_<m_i>, O_c>, (9), (11), (13), (15) become
+// needs only inner products. With p_c = <A_<m_i>, O_c>, equations (9), (11), (13), (15) become
 //   (9)   max || p_c ||^2
 //   (11)  w = p_c
 //   (13)  max || p_c - sum_j w_j <O_{c_j}, O_c> ||^2  (the proof, (34), has V of the new cluster c_{i_k} in
@@ -28,17 +28,17 @@ struct SubTensorMix {
   double explained = 0;     // by how much the mix lowers || A_<m_i> ||^2
 };
 
-// Projects a sub-tensor optimally on the given clusters (15). `products` are its inner products with all
-// atoms (C R_m).
+// Projects a sub-tensor onto the given clusters with the smallest error (15). `products` are its inner
+// products with all atoms (C R_m).
 SubTensorMix project_on(const AtomGram& atoms, const Eigen::VectorXd& products,
                         std::vector<std::uint32_t> clusters);
 
-// Returns the best cluster by (13) that is not yet in the mix.
+// Of the clusters that are not yet in the mix, returns the best one by (13).
 std::uint32_t next_cluster(const AtomGram& atoms, const Eigen::VectorXd& products, const SubTensorMix& mix);
 
 SubTensorMix search_greedy(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
-// Replaces single clusters of the mix. Takes the clusters of the mix in turn, and replaces each by the best
-// other cluster, until no replacement lowers the error.
+// Replaces single clusters of the mix. For one cluster of the mix after another, tries the best other
+// cluster, until no replacement lowers the error.
 SubTensorMix exchange(const AtomGram& atoms, const Eigen::VectorXd& products, SubTensorMix mix);
 
 SubTensorMix search_exhaustive(const AtomGram& atoms, const Eigen::VectorXd& products, std::size_t mixture);
@@ -46,7 +46,7 @@ SubTensorMix search_exhaustive(const AtomGram& atoms, const Eigen::VectorXd& pro
 SubTensorMix search(Pursuit pursuit, const AtomGram& atoms, const Eigen::VectorXd& products,
                     std::size_t mixture);
 
-// Share of the largest eigenvalue of uf(Z) uf(Z)^T. Smaller eigenvalues are rounding errors of a core in
+// Share of the largest eigenvalue of uf(Z) uf(Z)^T. Smaller eigenvalues are only rounding errors of a core in
 // floats.
 inline constexpr double rounded_eigenvalue = 1e-12;
 
@@ -61,8 +61,8 @@ struct DualBasis {
 DualBasis dual_basis(const Tensor& core, std::size_t mode, double lowest = rounded_eigenvalue);
 
 // Returns O_c = V_{m,c} x_{n != m} U_{n,c} of all clusters, joined along mode m, which then has size C R_m.
-// Global modes stay reduced. The paper projects every sub-tensor on the bases of each cluster instead, (10)
-// and (14). Expanding the few atoms of a cluster costs less and gives the same inner products.
+// Global modes stay reduced. The paper instead projects every sub-tensor onto the bases of each cluster, (10)
+// and (14). Our way gives the same inner products at a lower cost, because a cluster has few atoms.
 Tensor join_atoms(const std::vector<ClusteredFit::Cluster>& clusters, const std::vector<DualBasis>& dual,
                   const Dimensions& reduced, std::size_t mode);
 

@@ -73,7 +73,7 @@ Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, c
     Tensor core;
     for (std::size_t n : modes) {
       report(progress, {sweep + 1, settings.sweeps, n, best.objective.empty() ? 0 : best.objective.back()});
-      // All other modes are projected on their bases. The best subspace of this mode is then optimal for
+      // All other modes are projected onto their bases. So the result is the best subspace of this mode for
       // these bases.
       bases[n] = Matrix();
       const Tensor projected = project(a, bases);
@@ -81,7 +81,7 @@ Nsvd alternate(const TensorView& a, double squared, std::vector<Matrix> bases, c
       if (n == modes.back()) core = mode_product(projected, n, bases[n].transpose());
     }
     const double error = error_of(core), before = best.objective.empty() ? squared : best.objective.back();
-    // The error can rise only by rounding, when the fit has reached the precision of floats.
+    // Only rounding can raise the error. Then the fit has reached the precision of floats.
     if (!best.objective.empty() && error >= before) break;
     best.core = std::move(core);
     best.basis = bases;

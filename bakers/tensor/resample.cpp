@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Index;
 
-// A border with its two cells, and the cells behind them. The factors extrapolate from these cells to the
-// border, as decoding does. If the cell behind mixes other clusters, its factor is 0, and the value stays
-// constant up to the border.
+// A border with the two cells beside it, and the cells behind these. The factors extrapolate from a side's
+// two cells to the border, as decoding does. If the cell behind mixes other clusters, its factor is 0, and
+// the value is constant up to the border.
 struct Border {
   std::array<std::size_t, 4> cell;
   std::array<double, 4> factor;
@@ -28,7 +28,7 @@ bool same_clusters(const MixedCells& cells, std::size_t a, std::size_t b) {
   return std::is_permutation(first + at_a, first + at_a + count, first + at_b);
 }
 
-// Adds the borders of cells in a row (step 1) or in a column (step `side`).
+// Adds the borders between cells in a row (step 1) or in a column (step `side`).
 void add_borders(const MixedCells& cells, std::size_t step, std::vector<Border>& borders) {
   const std::size_t all = cells.side * cells.side;
   const auto place = [&](std::size_t cell) { return step == 1 ? cell % cells.side : cell / cells.side; };
@@ -136,9 +136,9 @@ namespace {
 using Eigen::Index;
 
 // Share of the largest eigenvalue of a core. Smaller eigenvalues are ignored. The members of a cluster hardly
-// differ along the directions with small eigenvalues, but a sub-tensor between the fitted ones may have a
-// part along them. For an eigenvalue share of 1e-12, its coefficient would be a million times as large as in
-// the fit. A file quantises all coefficients of a map relative to the largest one.
+// differ along directions with small eigenvalues, but a sub-tensor between the fitted ones may have a part
+// along them. At an eigenvalue share of 1e-12, its coefficient would be a million times as large as in the
+// fit. This would ruin the file, which quantises all coefficients of a map relative to the largest one.
 constexpr double lowest_eigenvalue = 1e-6;
 
 std::vector<DualBasis> dual_bases(const ClusteredFit& fit) {
@@ -175,7 +175,7 @@ void check_sizes(const AtomGram& atoms, const Matrix& projections, const Matrix&
                   std::size_t(weights.cols()), atoms.clusters, atoms.rank);
 }
 
-// Searches the clusters of each row. The resulting weights are in coordinates of the orthonormal atoms.
+// Searches for the clusters of each row. The resulting weights are in coordinates of the orthonormal atoms.
 MixedCells search_rows(const Resampling& of, const Matrix& projections, const Matrix& weights,
                        Pursuit pursuit) {
   const std::size_t rows = std::size_t(weights.rows()), k = of.count;
@@ -220,7 +220,7 @@ Matrix atom_projections(const ClusteredFit& fit, const TensorView& a) {
                   "the size of the tensor differs from the size of the fitted tensor (%zu and %zu entries)",
                   a.size(), volume(fit.dimensions));
   const Tensor atoms = atoms_of(fit, dual_bases(fit));
-  // If no mode is reduced, uses the tensor itself, without a copy.
+  // If no mode is reduced, uses the tensor itself and makes no copy.
   const auto is_empty = [](const Matrix& u) { return u.size() == 0; };
   if (std::all_of(fit.global_basis.begin(), fit.global_basis.end(), is_empty))
     return cross_gram(a, atoms, fit.mode).cast<float>();

@@ -20,8 +20,8 @@ struct Groups {
   double squared_distance = std::numeric_limits<double>::infinity();
 };
 
-// The probability that a point becomes the next centre is proportional to its squared distance from the
-// nearest existing centre.
+// Each point becomes the next centre with a probability proportional to its squared distance from the nearest
+// centre so far.
 MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& bits) {
   const auto uniform = [&] { return double(bits() >> 11) * 0x1p-53; };
   MatrixXd centres(clusters, points.cols());
@@ -51,8 +51,8 @@ MatrixXd draw_centres(const MatrixXd& points, Index clusters, std::mt19937_64& b
   return centres;
 }
 
-// Moves one point into each empty group: the point farthest from its centre, taken from a group with several
-// points.
+// Moves one point into each empty group. This is the point farthest from its centre among all groups with
+// several points.
 void fill_empty(const MatrixXd& points, MatrixXd& centres, Groups& now) {
   std::vector<std::size_t> members(std::size_t(centres.rows()));
   for (std::uint32_t g : now.group) ++members[g];
@@ -123,7 +123,7 @@ Matrix sub_tensor_points(const TensorView& a, std::size_t mode) {
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "mode %zu does not exist in a tensor of order %zu", mode + 1,
                   a.order());
   // uf(A) uf(A)^T = Q L Q^T. So the rows of Q L^(1/2) have the same inner products as the sub-tensors, and
-  // also the same distances.
+  // therefore the same distances.
   const SymmetricEigen eigen = symmetric_eigen(gram(a, mode));
   const MatrixXd points = eigen.vectors * eigen.values.cwiseMax(0.0).cwiseSqrt().asDiagonal();
   return points.cast<float>();

@@ -36,8 +36,8 @@ void need_same_size(const TensorView& a, const TensorView& b) {
 }
 
 // Calls body(row, column, index in memory) for each entry of the unfolding. In the paper's order of columns,
-// the indices of the modes after n change slowest, then the indices of the modes before n. So the column is r
-// * outer + o.
+// the indices of the modes after n change slowest, and the indices of the modes before n change fastest. So
+// the column is r * outer + o.
 template <class Body>
 void for_each_unfolded(const ModeLayout& l, const Body& body) {
   for (std::size_t i = 0; i < l.size; ++i)
@@ -121,7 +121,7 @@ void check_tensor(const TensorView& a) {
                     n + 1);
   if (a.dimensions.empty() || !a.data)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "the tensor is empty; need entries in at least one mode");
-  // If an entry is not finite, the sum is not finite either. Only then do we search for the entry.
+  // The sum is not finite if an entry is not finite. Only then do we search for the entry.
   if (std::isfinite(block_sum(a.size(), [&](std::size_t i) { return double(a.data[i]); }))) return;
   const auto bad = std::size_t(
       std::find_if(a.data, a.data + a.size(), [](float v) { return !std::isfinite(v); }) - a.data);
@@ -171,7 +171,7 @@ double growth(const Matrix& u) {
   return u.size() == 0 ? 1 : double(u.rows()) / double(u.cols());
 }
 
-// Returns the modes from 1 that have a matrix. The mode that shrinks most comes first.
+// Returns the modes after the first that have a matrix. The mode that shrinks most comes first.
 std::vector<std::size_t> inner_order(const std::vector<Matrix>& u) {
   std::vector<std::size_t> order;
   for (std::size_t n = 1; n < u.size(); ++n)
@@ -181,7 +181,7 @@ std::vector<std::size_t> inner_order(const std::vector<Matrix>& u) {
   return order;
 }
 
-// Multiplies all modes but the first, in the given order, for each sub-tensor of the first mode.
+// For each sub-tensor of the first mode, multiplies all other modes in the given order.
 Tensor inner_products(const TensorView& a, const std::vector<Matrix>& u,
                       const std::vector<std::size_t>& order) {
   Dimensions result = a.dimensions;

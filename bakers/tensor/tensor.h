@@ -52,7 +52,7 @@ Matrix unfold(const TensorView& a, std::size_t mode);
 // Undoes unfold(): returns the tensor of these dimensions.
 Tensor fold(const Matrix& unfolded, const Dimensions& dimensions, std::size_t mode);
 
-// Returns the sub-tensors A_<m_i> of equation (4) for the given i, joined along mode m in this order.
+// Returns the sub-tensors A_<m_i> of equation (4) for the given indices i, joined along mode m in this order.
 Tensor sub_tensors(const TensorView& a, std::size_t mode, const std::vector<std::size_t>& indices);
 
 // Throws INVALID_ARGUMENT for an order of 0, a mode of size 0, no data, or an entry that is not finite. The
@@ -64,12 +64,12 @@ void check_tensor(const TensorView& a);
 // Returns A x_n U, where U is J_n x I_n.
 Tensor mode_product(const TensorView& a, std::size_t mode, const Matrix& u);
 
-// Returns A x_1 U_1 ... x_N U_N. An empty matrix stands for the identity. The modes that shrink most are
-// multiplied first. All modes but the first are computed for one slab of the first mode at a time, so that no
+// Returns A x_1 U_1 ... x_N U_N. An empty matrix means the identity. Multiplies the modes that shrink most
+// first. Computes all modes except the first for one slab of the first mode at a time, so that no
 // intermediate tensor is stored as a whole.
 Tensor mode_products(const TensorView& a, const std::vector<Matrix>& u);
 
-// Projects on bases: returns A x_1 U_1^T ... x_N U_N^T.
+// Projects onto bases: returns A x_1 U_1^T ... x_N U_N^T.
 Tensor project(const TensorView& a, const std::vector<Matrix>& bases);
 
 }  // namespace nook::bake::tensor

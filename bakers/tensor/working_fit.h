@@ -1,5 +1,5 @@
-// A clustered fit in progress. It works on the tensor with reduced global modes, and lists the members of
-// each cluster.
+// A clustered fit in progress. It works on the tensor whose global modes are reduced, and lists the members
+// of each cluster.
 #pragma once
 
 #include "bakers/tensor/clustered_fit.h"
@@ -9,7 +9,7 @@ namespace nook::bake::tensor {
 
 // Global modes: modes with one basis for all clusters (section 5.2 of the paper).
 
-// A_G of equation (23).
+// The reduced tensor A_G of equation (23).
 struct Reduction {
   std::vector<Matrix> global_basis;  // per mode: I_n x R_n; empty if not global or of full rank
   Tensor held;                       // A_G if a mode was reduced, otherwise empty
@@ -24,7 +24,7 @@ Reduction reduce_global_modes(const TensorView& a, const ClusteredSettings& sett
 struct WorkingCluster {
   std::vector<std::size_t> members;  // ascending
   Matrix mixing;                     // members x R_m: the members' rows of U_{m,c}
-  bool fitted = false;               // false: core and bases are not known yet
+  bool fitted = false;               // false if core and bases are not known yet
   ClusteredFit::Cluster parts;
 };
 
@@ -38,12 +38,12 @@ struct WorkingFit {
 // Sets the members of each cluster from `membership`. Keeps cores and bases.
 void list_members(WorkingFit& fit);
 
-// Fits core, bases and mixing rows of a cluster by an N-SVD of `shrunk`, the tensor of only the cluster's
-// members. The N-SVD starts from the present bases and mixing rows (the rows may be missing). If the cluster
-// was not fitted before, it starts from the HOSVD. Returns the squared error.
+// Fits core, bases and mixing rows of a cluster by an N-SVD of `shrunk`, the tensor of the cluster's members
+// only. The N-SVD starts from the present bases and mixing rows (the rows may be missing). A cluster that was
+// not fitted before starts from the HOSVD. Returns the squared error.
 double fit_members(WorkingCluster& cluster, const Tensor& shrunk, const ClusteredSettings& settings);
 
-// Returns Z_c x_n U_{n,c}, only for the members.
+// Returns Z_c x_n U_{n,c} for the members only.
 Tensor expand_members(const WorkingCluster& cluster, std::size_t mode);
 
 // Fits each initial cluster by an N-SVD of its members. Returns the squared norm of A_G - A^.
