@@ -398,8 +398,8 @@ std::vector<Pose> poses_of_animal(const SkinnedMesh& mesh, std::span<const float
       Pose pose = rig.pose(random_act(random), random);
       skin_positions(mesh, pose, posed);
       const float torn = float(count_torn(mesh, edges, posed)) / std::max(1.0f, float(edges.size()));
-      // The depth and the torn share, each divided by its limit; the larger of both. A pose is allowed up to
-      // 1.
+      // The depth and the torn share, each divided by its limit; the larger of both. The pose is allowed if
+      // this is at most 1.
       const float beyond = std::max(collision.depth(pose) / allowed, torn / allowed_tears(torn_by_clips));
       if (attempt == 0 || beyond < best) {
         best = beyond;

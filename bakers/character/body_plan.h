@@ -49,7 +49,7 @@ struct BodyPlan {
   bool trunk_of_motion = false, arms_of_motion = false, legs_of_motion = false;
 };
 
-// Draws what an arm does: it hangs, reaches forwards, or is raised to the side or overhead.
+// Chooses at random what an arm does: it hangs, reaches forwards, or is raised to the side or overhead.
 void plan_arm(LimbPlan& plan, PoseRandom& random);
 
 // No part of the returned plan uses motion capture.

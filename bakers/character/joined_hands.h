@@ -1,6 +1,6 @@
 // Makes poses in which both hands hold one object or each other, for example in a grip or a prayer. Most uses
-// of tools and weapons and many gestures look like this. Arms that are drawn independently never come so
-// close to each other.
+// of tools and weapons and many gestures look like this. Arms whose poses are chosen independently never come
+// so close to each other.
 #pragma once
 
 #include <array>

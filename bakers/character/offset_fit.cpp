@@ -38,8 +38,8 @@ bool is_hidden(const Sample& sample, const Line& line) {
   return (ao <= 0 && sample.truth <= clamped_margin) || (ao >= 1 && sample.truth >= 1 - clamped_margin);
 }
 
-// Fits the darkness as a linear function of the shadow, by least squares. Ignores samples whose error is
-// hidden because the line `now` is clamped.
+// Fits the darkness as a linear function of the shadow, by least squares. Ignores samples in which clamping
+// hides the error of the line `now`.
 Line line_of(std::span<const Sample> samples, double old_bias, double mean, const Line& now) {
   const double old_level = old_bias + mean;  // the darkness of the old line at the mean
   double count = old_constant_poses, x1 = 0, y1 = old_constant_poses * old_level, xx = 0, xy = 0;

@@ -160,8 +160,8 @@ class Maker {
 
   Pose make(Random& random) const {
     constexpr int tries = 8;
-    // When hands are joined, the fingers keep the curl of the pose, because all clips of a rig tend to have
-    // similar finger poses.
+    // When hands are joined, the fingers keep the curl of the pose, because finger poses hardly differ
+    // between the clips of a rig.
     constexpr float allowed = 0.6f, mirrored_share = 0.5f, joined_share = 0.15f;
     Pose best;
     float least = 0;

@@ -51,8 +51,8 @@ struct Recipe {
   int generation = pose_generation;
   int single_joint_steps = 0;   // 0: none
   std::size_t extra_poses = 0;  // poses that the host passed in; a recipe cannot make them again
-  // The first digits of the hash of the content that the bake read (content_hash.h). It is empty in recipes
-  // of earlier versions, which hashed the bytes of the file instead.
+  // The first digits of the hash of the content that the bake read (content_hash.h). The string is empty in
+  // recipes of earlier versions, which hashed the bytes of the file instead.
   std::string content;
   MeshSelection meshes;  // the meshes that the user selected for the bake
   RigCorrections rig;    // from a rig file

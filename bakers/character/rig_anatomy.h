@@ -65,8 +65,8 @@ struct Joint {
   JointRole role = JointRole::other;
   Side side = Side::none;
   std::uint8_t segment = 0;  // of fingers: 0 at the knuckle, then 1, 2
-  // The bone that continues the limb. It is the first child with a later role, or a loose foot or hand; -1:
-  // none.
+  // The bone that continues the limb, or -1. It is the first child with a later role, or a loose foot or
+  // hand.
   std::int32_t continuation = -1;
   std::int32_t limb = -1;    // number of the leg, wing, tail, ... that the bone belongs to; -1: none
   std::int32_t parent = -1;  // parent in the body (see BodyTree); -1: a root

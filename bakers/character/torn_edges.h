@@ -11,9 +11,9 @@
 
 namespace nook::bake {
 
-// A torn edge is stretched to more than this multiple of its rest length, and ...
+// An edge is torn if it is stretched to more than this multiple of its rest length ...
 constexpr float torn_stretch = 2.5f;
-// ... it grows by more than this share of the diagonal of the resting body. Without the second condition,
+// ... and grows by more than this share of the diagonal of the resting body. Without the second condition,
 // short edges at an elbow, which stretch far without a visible tear, would count as torn.
 constexpr float torn_growth = 0.01f;
 
