@@ -165,13 +165,13 @@ def write(centres, factors, shares, poses, motions):
 // Made by pose_prior.py from {motions} motions ({poses} poses) of the CMU Graphics Lab Motion Capture Database,
 // http://mocap.cs.cmu.edu, created with funding from NSF EIA-0196217; free for all uses.
 constexpr int centre_count = {len(centres)}, factor_count = {len(factors)}, value_count = {centres.shape[1]};
-// Hundredths of a radian and of a unit vector's length.
+// Values are in hundredths of a radian, or of the length of a unit vector.
 constexpr std::int16_t centre[centre_count][value_count] = {{
 {rows(centres)}}};
-// The share of a centre in all draws is its number over the sum of the numbers.
+// The probability of a centre is its number here, divided by the sum of all numbers.
 constexpr std::uint16_t share[centre_count] = {{
     {", ".join(str(int(round(10 * x))) for x in shares)}}};
-// The spread round a centre: a pose is a centre plus the factors times standard normal numbers.
+// A pose is a centre plus the sum of all factors, each times a standard normal random number.
 constexpr std::int16_t factor[factor_count][value_count] = {{
 {rows(factors)}}};
 // clang-format on

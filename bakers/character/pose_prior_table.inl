@@ -2,7 +2,7 @@
 // Made by pose_prior.py from 61 motions (3809 poses) of the CMU Graphics Lab Motion Capture Database,
 // http://mocap.cs.cmu.edu, created with funding from NSF EIA-0196217; free for all uses.
 constexpr int centre_count = 64, factor_count = 16, value_count = 42;
-// Hundredths of a radian and of a unit vector's length.
+// Values are in hundredths of a radian, or of the length of a unit vector.
 constexpr std::int16_t centre[centre_count][value_count] = {
     {3, -31, -2, 5, -56, 4, 0, -59, 68, -76, 48, 14, -58, 50, 13, -7, -97, -16, -10, -85, -49, 59, -33, 65, -29, -55, 56, -15, -12, 75, -52, 7, 61, -2, -98, 1, -10, -90, -37, 1, -37, 88},
     {-34, 13, -1, 41, -31, 13, 45, -77, 22, -43, -55, 59, -49, -67, 24, 19, -77, 52, 21, -81, -27, -29, -5, 61, -35, -83, 26, 63, -17, 52, 74, -5, 16, 11, -70, 62, 5, -91, -6, 34, 2, 70},
@@ -69,10 +69,10 @@ constexpr std::int16_t centre[centre_count][value_count] = {
     {41, -4, 10, -52, -21, 11, 22, -82, 35, -11, 27, 87, -21, 65, 45, 15, -79, 52, 3, -90, -41, 22, -11, 94, -21, -84, 38, 16, 39, 79, -8, 59, 68, 7, -78, 55, 10, -91, -35, -30, -10, 91},
     {-32, 4, 7, 6, 21, -5, 91, -16, -5, 94, -4, 17, 92, 7, 18, 3, -81, 42, -7, -93, -20, 40, -17, 69, -91, -11, -11, -94, -1, -10, -95, 3, 3, 2, -88, 35, -7, -94, -18, -12, 0, 83},
 };
-// The share of a centre in all draws is its number over the sum of the numbers.
+// The probability of a centre is its number here, divided by the sum of all numbers.
 constexpr std::uint16_t share[centre_count] = {
     50, 46, 94, 76, 75, 85, 46, 109, 75, 77, 109, 79, 53, 74, 48, 106, 49, 53, 112, 94, 97, 110, 91, 26, 95, 78, 59, 79, 120, 66, 80, 58, 52, 52, 100, 33, 127, 91, 44, 97, 49, 61, 44, 88, 84, 46, 45, 35, 46, 42, 62, 52, 42, 108, 84, 93, 57, 105, 83, 113, 36, 72, 85, 68};
-// The spread round a centre: a pose is a centre plus the factors times standard normal numbers.
+// A pose is a centre plus the sum of all factors, each times a standard normal random number.
 constexpr std::int16_t factor[factor_count][value_count] = {
     {-4, -1, -1, 6, 0, 1, 4, 2, -4, 4, 1, -5, 3, 3, -9, 2, -2, -7, 1, 5, -8, -1, -11, -8, -1, 2, -6, 0, 1, -11, -1, -2, -15, 0, -2, -6, 1, 3, -7, -3, -9, -6},
     {2, -2, 0, -3, 11, -2, 2, 5, 6, -1, 10, 5, 0, 11, 4, 0, 1, -1, -2, 2, -4, 1, -6, -4, -3, 6, 3, -6, 12, -1, -6, 10, -4, -2, 4, 8, -2, -1, 5, 0, 6, 1},

@@ -186,7 +186,7 @@ struct MapImage {
   std::size_t channels = 0;  // 1 or 3
   std::vector<float> texels;
 
-  // Returns a channel of a texel. An image with one channel uses it for all three.
+  // Returns a channel of a texel. An image with one channel uses this channel for all three.
   float at(std::size_t texel, std::size_t channel) const {
     return texels[texel * channels + (channels == 3 ? channel : 0)];
   }

@@ -215,8 +215,8 @@ class UboImage {
     throw Failure(NOOK_ERROR_BAD_FILE, "%.250s: cannot be read (%.150s)", path_.c_str(), why.c_str());
   }
 
-  // An image with one channel uses it for all three. Channels after the third are not read, unless X, Y and Z
-  // are among them.
+  // An image with one channel uses this channel for all three. Channels after the third are not read, unless
+  // X, Y and Z are among them.
   void find_channels(const platform::ImageHead& spec, FloatColours colours) {
     if (spec.channels < 3) return;
     channel_ = {0, 1, 2};

@@ -46,10 +46,10 @@ enum class FloatColours {
 };
 
 // Reads all images with such names in the folder and its subfolders. Integer images are sRGB and are
-// converted to linear; float images are linear. An image with one channel uses it for all three. Channels
-// after the third are ignored. If `texels` is above 0, reads only a square of this side in the middle of each
-// image, and keeps only the rows or tiles that contain it in memory. The result has no VOTF. Progress counts
-// images.
+// converted to linear; float images are linear. An image with one channel uses this channel for all three.
+// Channels after the third are ignored. If `texels` is above 0, reads only a square of this side in the
+// middle of each image, and keeps only the rows or tiles that contain it in memory. The result has no VOTF.
+// Progress counts images.
 //
 // Throws Failure(NOOK_ERROR_BAD_FILE) if an image is unreadable, differs in size from the first one, or has a
 // texel in the square that is not finite. The message names the file. Also throws it if the folder has no

@@ -79,7 +79,7 @@ std::vector<tensor::Matrix> gaussian_stack(const Exemplar& exemplar, std::uint32
 
 inline constexpr std::uint32_t appearance_channels = 8;
 
-// The window of a texel is 5 x 5 texels of `values`, `spacing` texels apart. Projects each window on the
+// The window of a texel is 5 x 5 texels of `values`, `spacing` texels apart. Projects each window onto the
 // leading principal components of all windows. Returns one row per texel.
 tensor::Matrix appearance_vectors(const tensor::Matrix& values, const ExemplarShape& shape,
                                   std::int32_t spacing);

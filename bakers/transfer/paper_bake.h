@@ -12,8 +12,8 @@ namespace nook::bake::transfer {
 // Traces the raw data of the paper's form: for each vertex, the matrix from lobes to the light modes of a
 // material.
 
-// The scene and the material for all vertices. The referenced objects must exist as long as matrices are
-// computed.
+// The scene and the material for all vertices. The referenced objects must outlive the computation of the
+// matrices.
 struct MatrixSource {
   const SurfaceMesh& mesh;
   const RayScene& scene;

@@ -23,8 +23,7 @@ std::vector<WorldCaster> bone_capsules(const SkinnedMesh& mesh, std::span<const 
 
 // Makes exactly `count` capsules, or as many as the vertices allow. First merges bones with little area with
 // their parents. If there are still too many bones, merges the bones with the least area too. If there are
-// too few capsules, cuts the capsule with the largest misfit in two across its longest axis, and repeats
-// this.
+// too few capsules, repeatedly cuts the capsule with the largest misfit in two, across its longest axis.
 std::vector<WorldCaster> initial_casters(const SkinnedMesh& mesh, std::span<const float> vertex_area,
                                          std::size_t count);
 
