@@ -24,8 +24,9 @@ struct BakeSettings {
   std::size_t entries = 7;    // key points per vertex, at most 8
   std::uint32_t rays = 16;    // per vertex and pose
   std::size_t steps = 20000;  // mini-batches (nook), or rounds of block descent (paper)
-  double time_limit_s = 0;    // for the fit; 0: none. If the limit ends a fit, the result is not reproducible
-                              // bit for bit
+  // Limit for the fit, in seconds; 0: no limit. If the limit ends a fit, the result is not reproducible bit
+  // for bit.
+  double time_limit_s = 0;
   std::uint64_t seed = 1;
   Kernel kernel;
   // Initial saturation of each key point, up to max_saturation (model.h). The fit changes it. If it is 0, no

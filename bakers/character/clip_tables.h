@@ -57,7 +57,7 @@ struct ClipTableSettings {
   // Limit of the file size in bytes per frame and welded vertex. This limit takes precedence over the error
   // limits.
   double max_bytes = 0.25;
-  std::uint32_t max_modes = 96;  // of the AO table
+  std::uint32_t max_modes = 96;  // maximum for the AO table
 };
 
 struct ClipTableReport {

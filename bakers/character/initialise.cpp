@@ -172,7 +172,7 @@ FitState initial_state(const Kernel& kernel, std::span<const InitialSphere> sphe
 
 std::vector<float> placement_weights(std::span<const float> vertex_weight, const AoTargets& targets,
                                      std::size_t poses) {
-  constexpr double least_share = 0.05;  // of the mean variance; gives every part of a body key points
+  constexpr double least_share = 0.05;  // share of the mean variance; gives all parts of a body key points
   const std::size_t vertices = vertex_weight.size();
   std::vector<double> sum(vertices, 0.0), squares(vertices, 0.0);
   for (std::size_t t = 0; t < poses; ++t) {

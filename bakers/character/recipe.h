@@ -22,7 +22,7 @@ struct PresetValues {
   std::size_t auto_poses = 0;
   std::size_t clip_poses = 0;  // total over all fitted clips
   std::size_t max_samples_per_clip = 64;
-  int single_joint_steps = 5;  // per axis of the grid of rotations
+  int single_joint_steps = 5;  // steps per axis of the grid of rotations
 };
 
 // draft takes about a minute on two cores; use it for a first look. standard takes at most 5 minutes and 2 GB

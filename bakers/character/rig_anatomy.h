@@ -64,7 +64,7 @@ enum class Side : std::uint8_t { none, left, right };
 struct Joint {
   JointRole role = JointRole::other;
   Side side = Side::none;
-  std::uint8_t segment = 0;  // of fingers: 0 at the knuckle, then 1, 2
+  std::uint8_t segment = 0;  // for fingers: 0 at the knuckle, then 1, 2
   // The bone that continues the limb, or -1. It is the first child with a later role, or a loose foot or
   // hand.
   std::int32_t continuation = -1;

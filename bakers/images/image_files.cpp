@@ -69,7 +69,7 @@ constexpr std::uint32_t exr_magic = 20000630;
 constexpr std::uint32_t is_tiled = 0x200, is_multipart = 0x1000;  // bits of the version field
 // When OpenEXR opens a file, it allocates up to 256 whole rows.
 constexpr std::int64_t max_columns = 1 << 16;
-constexpr std::size_t max_name_length = 255;  // of an attribute's name and of its type's name, bytes
+constexpr std::size_t max_name_length = 255;  // bytes of an attribute's name or of its type's name
 
 // Reads a little-endian number; all numbers of the format are little-endian. Returns 0 beyond the end of the
 // file.

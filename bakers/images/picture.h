@@ -54,7 +54,7 @@ class BodyView {
   struct Hit {
     std::uint32_t triangle;
     float u, v;
-    float cosine;  // of the angle between the view and the face's normal
+    float cosine;  // cosine of the angle between the view direction and the face's normal
   };
   static constexpr std::uint32_t nothing = ~0u;
 

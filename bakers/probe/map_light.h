@@ -28,8 +28,8 @@ inline Region region_of(const Basis& basis) {
 }
 
 struct MapIntegrals {
-  Channels radiance{};  // of f
-  Channels square{};    // of f^2
+  Channels radiance{};  // integral of the radiance f over the region
+  Channels square{};    // integral of f^2
 };
 MapIntegrals integrate(const Environment& map, const Region& region);
 

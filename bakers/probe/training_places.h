@@ -12,10 +12,10 @@
 namespace nook::bake::probe {
 
 struct TrainingSettings {
-  std::uint32_t origins = 24;  // per cell, for rays
-  std::uint32_t rays =
-      8;  // per origin; each hit gives a place on a surface, and every fourth ray also a place in the open
-  std::uint32_t paths = 128;  // per place
+  std::uint32_t origins = 24;  // ray origins per cell
+  // Rays per origin. Each hit gives a place on a surface, and every fourth ray also a place in open space.
+  std::uint32_t rays = 8;
+  std::uint32_t paths = 128;  // paths per place
   std::uint64_t seed = 1;
   PathSettings path;
 };

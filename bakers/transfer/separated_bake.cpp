@@ -26,7 +26,7 @@ constexpr float dark = 1e-4f;
 // The memory that one thread reuses for all its vertices.
 struct Workspace {
   std::vector<VisibleDirection> visible;
-  std::vector<float> seen, whole;  // per lobe
+  std::vector<float> seen, whole;  // one value per lobe
 };
 
 // The geometry that the vertices can see.

@@ -32,7 +32,7 @@ struct LobesOfDirections {
   std::vector<std::uint32_t> begin;  // per direction, and one past the end
   std::vector<std::uint32_t> lobe;
   std::vector<float> weight;
-  float integral = 0;  // per lobe
+  float integral = 0;  // integral of one lobe
 };
 
 LobesOfDirections lobes_of(const nook::transfer::CubeCells& cells, std::uint32_t lobes);
