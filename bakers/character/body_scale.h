@@ -11,7 +11,8 @@
 namespace nook::bake {
 
 // Returns the power of two that scales the body's largest extent nearest to 1.7 m, the height of a person.
-// The result is 1 for bodies from 1.2 m to 2.4 m. A power of two causes no rounding.
+// The result is 1 for bodies whose largest extent is between 1.2 m and 2.4 m. A power of two causes no
+// rounding.
 float scale_to_person(const SkinnedMesh& mesh);
 
 SkinnedMesh scaled(const SkinnedMesh& mesh, float scale);

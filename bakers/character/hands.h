@@ -33,7 +33,8 @@ struct HandFrame {
 HandFrame hand_frame(const SkinnedMesh& mesh, std::span<const Joint> joints, const BodyTree& tree,
                      std::size_t wrist, Vec3 up);
 
-// Returns the turn of a finger's joint. `curl` is 0 for a stretched finger and 1 for a fist.
+// Returns the rotation of a finger's joint as a rotation vector. `curl` is 0 for a stretched finger and 1 for
+// a fist.
 Vec3 finger_turn(const Joint& joint, Vec3 curl_axis, float curl);
 
 // Returns true for fingers and thumbs that carry an object. For example, a club may be skinned to a finger.

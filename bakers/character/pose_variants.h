@@ -18,7 +18,8 @@ struct MirrorRig {
   std::vector<std::uint32_t> twin;  // mirror image of each bone; itself for a bone in the middle
 };
 
-// Finds the symmetry about an upright plane across x or z. Returns nothing if there is none. The mirrored
+// Finds an upright plane, perpendicular to x or z, in which the rig is symmetric. Returns nothing if there is
+// none. The mirrored
 // rest position of every joint must be within 2 % of the rig's extent from its twin. The parents of twins
 // must be twins too. At least one joint must have a twin other than itself.
 std::optional<MirrorRig> find_mirror(const SkinnedMesh& mesh, const BodyTree& tree);

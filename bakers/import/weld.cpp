@@ -53,7 +53,7 @@ Direction face_normal(std::span<const Vec3> position, const std::array<std::uint
   return {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
 }
 
-// A corner of a triangle at a place.
+// A corner of a triangle.
 struct Corner {
   std::uint32_t vertex = 0;
   std::uint32_t next = 0, previous = 0;  // places

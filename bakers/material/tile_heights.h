@@ -21,7 +21,8 @@ using ReliefProgress = std::function<bool(std::size_t done, std::size_t total)>;
 // of threads gives the same bits.
 std::vector<float> heights_of_views(const RawMaterial& raw, const ReliefProgress& progress = {});
 
-// Heights over the plane z = 0 in tiles, in the texel order x * height + y. Look-ups are bilinear.
+// Heights above the plane z = 0, in tiles. The height of texel (x, y) has the index x * height + y, with
+// `height` texels along y. Look-ups are bilinear.
 struct HeightMap {
   std::uint32_t width = 0, height = 0;
   std::span<const float> heights;

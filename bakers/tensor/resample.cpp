@@ -13,9 +13,9 @@ namespace {
 
 using Eigen::Index;
 
-// A border with the two cells beside it, and the cells behind these. The factors extrapolate from a side's
-// two cells to the border, as decoding does. If the cell behind mixes other clusters, its factor is 0, and
-// the value is constant up to the border.
+// A border, the two cells beside it, and the two cells behind them. Decoding extrapolates to the border from
+// the two cells on one side, and these factors do the same. If the cell behind mixes other clusters, its
+// factor is 0, and the value is constant up to the border.
 struct Border {
   std::array<std::size_t, 4> cell;
   std::array<double, 4> factor;
@@ -80,7 +80,8 @@ class StepSystem {
       sum += atoms_.product.middleCols(atom(cell, k), rank_) *
              (factor * weights.row(Index(cell)).segment(Index(k) * rank_, rank_).transpose());
   }
-  // Adds to the cell's row of `out` the entries of `sum` for the cell's own atoms, times `factor`.
+  // Takes the entries of `sum` for the cell's own atoms, and adds them, times `factor`, to the cell's row of
+  // `out`.
   void add_part(const Eigen::VectorXd& sum, std::size_t cell, double factor, WideMatrix& out) const {
     for (std::size_t k = 0; k < cells_.count; ++k)
       out.row(Index(cell)).segment(Index(k) * rank_, rank_) +=

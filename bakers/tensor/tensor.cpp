@@ -149,7 +149,7 @@ void multiply(const float* in, const ModeLayout& layout, const Matrix& u, float*
         u * Eigen::Map<const Matrix>(in + Index(o) * size * inner, size, inner);
 }
 
-// Computes out = in x_0 U. Blocks of columns run in parallel.
+// Multiplies the tensor `in` by the matrix U along its first mode. Blocks of columns run in parallel.
 void multiply_first(const float* in, const ModeLayout& layout, const Matrix& u, float* out) {
   const auto stride = Eigen::OuterStride<>(Index(layout.inner));
   constexpr std::size_t block = 1024;

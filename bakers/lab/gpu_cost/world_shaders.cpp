@@ -24,7 +24,7 @@ std::vector<Loop> near_groups(bool shares) {
   std::vector<Loop> part{{"casters of a part", trips::casters_of_group_part, {}}};
   if (shares) part.insert(part.begin(), branch("limbs of one capsule", trips::merged_parts));
   std::vector<Loop> loops{
-      {"readings of a list of near bodies",
+      {"reads of a list of near bodies",
        1,
        {{"bodies that the group keeps",
          trips::near_bodies_of_group,
@@ -48,7 +48,7 @@ std::vector<Loop> far_groups(bool shares) {
     list[0].inside = {branch("bodies in reach", trips::far_bodies_in_reach)};
     list.insert(list.begin(), branch("bodies that the list has", 1));
   }
-  const Loop readings{"readings of a list of far bodies", trips::bodies_of_tile / trips::bodies_read, list};
+  const Loop readings{"reads of a list of far bodies", trips::bodies_of_tile / trips::bodies_read, list};
   if (!shares) return {readings};
   return {branch("pixels of the viewport", 1,
                  {branch("surfaces", 1, {branch("without a normal", trips::no_normal)})}),

@@ -21,10 +21,10 @@ struct GlossySettings {
 // Returns a row for each kind of surface and each form. The error of a surface is the root mean square over
 // channels of the difference in radiance, divided by the mean radiance of the map. `rms`, `percentile_95` and
 // `worst` are statistics of this error over the surfaces, relative to the exact reflection of the lobes.
-// `map_rms` is relative to the exact reflection of the map, reduced to 128 columns. There are two kinds of
-// surfaces. The first kind has one GGX width, a roughness from 0.1 to 1, and a reflectance of 1 or 0.04. The
-// second kind has two different widths in the same range, with ratios up to 1 : 36, and is seen at grazing
-// angles.
+// `map_rms` is relative to the exact reflection of the map, after the map was reduced to 128 columns. There
+// are two kinds of surfaces. The first kind has one GGX width, a roughness from 0.1 to 1, and a reflectance
+// of 1 or 0.04. The second kind has two different widths in the same range, with ratios up to 1 : 36, and is
+// seen at grazing angles.
 nlohmann::ordered_json glossy_rows(const bake::Environment& map, const std::string& map_name,
                                    const GlossySettings& settings, const bake::Progress& progress);
 

@@ -39,8 +39,8 @@ RawReflectance::RawReflectance(bake::material::RawMaterial raw)
         first.texels[(t * views_ + v) * numbers_ + row] = raw.btf[(row * views_ + v) * raw.texels() + t];
   raw.btf = {};
   levels_.push_back(std::move(first));
-  // The last level is the first one with an odd side. If both sides are powers of two, the shorter side of
-  // the last level is one texel long.
+  // We stop at a level whose width or height is odd. If both are powers of two, the shorter side of the last
+  // level is one texel long.
   while (levels_.back().width % 2 == 0 && levels_.back().height % 2 == 0) {
     const Level& fine = levels_.back();
     Level coarse{fine.width / 2, fine.height / 2, {}};

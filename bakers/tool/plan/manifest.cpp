@@ -225,7 +225,7 @@ std::string expanded(std::string pattern, const std::string& path, bool escaped)
     for (std::size_t at = 0; (at = pattern.find(name, at)) != std::string::npos; at += text.size())
       pattern.replace(at, name.size(), text);
   };
-  // For a file in the manifest's own folder, {dir} is empty. Then the slash after it is removed too.
+  // For a file in the manifest's own folder, {dir} is empty, so we remove the slash after {dir} too.
   if (folder.empty()) replace("{dir}/", "");
   replace("{dir}", shown(folder));
   replace("{stem}", shown(as_path.stem().string()));

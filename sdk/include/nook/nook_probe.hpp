@@ -18,7 +18,7 @@ inline nook_probe_fit_desc probe_fit_desc() {
   return desc;
 }
 
-// You must set either `fits`, or `lobes`, or both `functions` and `coefficients`.
+// Set exactly one of these: `fits`; `lobes`; or the pair `functions` and `coefficients`.
 inline nook_probe_desc probe_desc() {
   nook_probe_desc desc;
   check(nook_probe_desc_init(&desc));

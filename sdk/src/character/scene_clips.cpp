@@ -72,7 +72,7 @@ void check_bound(const LoadedClips& clips, const nook_instance_clip& given, std:
   if (is_surely_within || is_within(moved(bound_of_mix(clips, mix_of(clips.set, given)), place, scale)))
     return;
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                "the pose of instances[%zu] is far too large (clip %u at %g s with its place)", index,
+                "the pose of instances[%zu] is far too large (clip %u at %g s, moved by its place)", index,
                 given.time.clip, given.time.seconds);
 }
 

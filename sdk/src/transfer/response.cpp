@@ -92,7 +92,7 @@ void to_nodes(std::uint32_t side, const float* fine, std::size_t fine_step, std:
   }
 }
 
-// Finds the nodes that interpolation inside the map's disc can read.
+// Finds the nodes that a look-up inside the map's disc can interpolate between.
 void find_rows(float radius, Response& response) {
   const std::uint32_t side = response.side;
   const float step = 2 * radius / float(side - 1), limit = radius + 1.5f * step;

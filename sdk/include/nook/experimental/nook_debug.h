@@ -65,9 +65,9 @@ typedef struct nook_scene_key_point {
   /* The point at which self-shadow is evaluated. The bake fits its position, so it may lie off the
    * surface. */
   float position_ws[3];
-  /* The shadow of the instance's own spheres in the last nook_scene_update, >= 0, before it is multiplied by
-   * the weights of the vertices. `shadow` is -1 before the first nook_scene_update. OpenGL updates do not set
-   * `shadow`, because they keep the shadows on the GPU. */
+  /* The shadow of the instance's own spheres in the last nook_scene_update, at least 0. It is not yet
+   * multiplied by the weights of the vertices. `shadow` is -1 before the first nook_scene_update. OpenGL
+   * updates do not set `shadow`, because they keep the shadows on the GPU. */
   float shadow;
   float normal_ws[3];
   /* The occlusion by links, ground and occluders in the last nook_scene_update, in [0, 1], or -1 like

@@ -106,8 +106,7 @@ NOOK_API nook_result nook_bake_trace_ao(const nook_bake_trace_desc* desc, float*
 /* ---- Path-traced irradiance of a scene under an environment ---- */
 
 /* A latitude-longitude map of linear radiance, which is constant within a texel. Rows go from +y to -y, and
- * columns go around y. The middle column looks along +x. The column a quarter of the width to its right looks
- * along +z. */
+ * columns go around y. The middle column looks along +x. The column at 3/4 of the width looks along +z. */
 typedef struct nook_bake_environment {
   /* 3 floats in [0, 1e15] for each texel, rows from the top. May be NULL only if width is 0. The environment
    * is then black. */
