@@ -152,23 +152,23 @@ NOOK_API nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiv
 
 /* From the next update on, links each instance to its `k` nearest instances, in addition to the links of
  * nook_scene_link. `k` is 0 (off) to 16. `max_distance` limits the distance between the centres of bounding
- * spheres, in metres. Each update searches for the nearest instances again; if the instances are spread out,
- * the time grows linearly with their number. This call may allocate, so that the update does not have to. One
- * at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
+ * spheres, in the unit of your poses. Each update searches for the nearest instances again; if the instances
+ * are spread out, the time grows linearly with their number. This call may allocate, so that the update does
+ * not have to. One at a time. Errors: INVALID_ARGUMENT, OUT_OF_MEMORY. */
 NOOK_API nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance);
 
 /* Sets the ground under an instance: the points p with dot(normal, p) = offset, in world space. plane_xyzd
- * holds the normal, which points upwards and has unit length to 1e-3, and the offset; NULL removes the
- * ground. Nook represents the ground by a large sphere that touches the plane under the instance.
- * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
+ * holds the normal, which points upwards and has unit length to 1e-3, and the offset in the unit of your
+ * poses; NULL removes the ground. Nook represents the ground by a large sphere that touches the plane under
+ * the instance. One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance,
                                            const float* plane_xyzd);
 
 /* A sphere that you place to darken instances, such as a shield or a ball. */
 typedef struct nook_occluder {
-  /* World space, metres. */
+  /* World space, in the unit of your poses (metres). */
   float centre_ws[3];
-  /* Metres, > 0. */
+  /* > 0, in the same unit. */
   float radius;
   /* The only instance that the sphere darkens, such as the bearer of a shield. 0: all instances. */
   nook_instance_id receiver;
@@ -206,9 +206,9 @@ NOOK_API nook_result nook_scene_remove_occluder(nook_scene scene, nook_occluder_
 NOOK_API nook_result nook_scene_set_light(nook_scene scene, nook_instance_id instance, const nook_lobe* lobes,
                                           uint32_t lobe_count);
 
-/* Sets the camera position, in world space and metres. Updates choose levels of detail by the distance to the
- * camera. Before the first call, or with NULL, all instances have full detail. One at a time. Errors:
- * INVALID_ARGUMENT. */
+/* Sets the camera position, in world space, in the unit of your poses. Updates choose levels of detail by the
+ * distance to the camera. Before the first call, or with NULL, all instances have full detail. One at a time.
+ * Errors: INVALID_ARGUMENT. */
 NOOK_API nook_result nook_scene_set_camera(nook_scene scene, const float position_ws[3]);
 
 /* Evaluates the shadows of all instances at their key points on the CPU. The call uses the context's
@@ -504,7 +504,7 @@ typedef struct nook_vertex_match_desc {
   uint32_t vertex_count;
   /* The primitive of the file that the vertices come from, default NOOK_ALL_PRIMITIVES. */
   int32_t primitive;
-  /* 0 (default): positions are in the space of the file's POSITION attribute. 1: in rest space, metres. */
+  /* 0 (default): positions are in the space and unit of the file's POSITION. 1: in rest space, metres. */
   uint32_t in_rest_space;
   /* The largest distance of a match, as a share of the diagonal of the model's box, in [0, 1]. 0 (default)
    * means 1e-4, which is enough for 16-bit positions. */
