@@ -98,12 +98,12 @@ NOOK_API nook_result nook_clips_read_ao(nook_clips clips, const nook_clip_time* 
 NOOK_API nook_result nook_clips_read_pose(nook_clips clips, const nook_clip_time* time,
                                           const float* place_3x4, float* bones_3x4, uint32_t bone_count);
 
-/* Sets the pose of an instance from a clip; `place_3x4` is as in nook_clips_read_pose. Until the next call of
- * nook_scene_set_pose or nook_scene_set_model, the self-occlusion of the instance also comes from the clip.
- * nook_scene_read then gives the AO of the clip times the share that the other casters leave open: 1 - added,
- * or a share for each channel of directional AO. The buffers of nook_gl_scene_update hold only this share.
- * You must have loaded the clips for the instance's model. The call does not allocate. One at a time. Errors:
- * INVALID_ARGUMENT, INVALID_HANDLE. */
+/* Sets the pose of an instance from a clip, as nook_clips_read_pose gives it; `place_3x4` may be NULL. Until
+ * the next call of nook_scene_set_pose or nook_scene_set_model, the self-occlusion of the instance also
+ * comes from the clip. nook_scene_read then gives the AO of the clip times the share that the other casters
+ * leave open: 1 - added, or a share for each channel of directional AO. The buffers of nook_gl_scene_update
+ * hold only this share. You must have loaded the clips for the instance's model. The call does not allocate.
+ * One at a time. Errors: INVALID_ARGUMENT, INVALID_HANDLE. */
 NOOK_API nook_result nook_scene_set_clip(nook_scene scene, nook_instance_id instance, nook_clips clips,
                                          const nook_clip_time* time, const float* place_3x4);
 

@@ -66,7 +66,7 @@ typedef struct nook_gl_desc {
   nook_gl_tier max_tier;
   nook_gl_state_mode state_mode;
   /* 1, for development: each call fails with NOOK_ERROR_GL unless the OpenGL context of nook_gl_create is
-   * current, and a frame in which no pixel shows a surface is logged. Both checks query OpenGL. 0 (default):
+   * current, and frames that are unlikely to be meant are logged. Both checks query OpenGL. 0 (default):
    * if a wrong context is current, a call may return NOOK_OK and do nothing, or change your objects. */
   int32_t debug;
 } nook_gl_desc;
