@@ -299,7 +299,11 @@ TEST_CASE("a ground above much of the body is logged once for an instance, with 
                Ground{0.5f, {0, -1, 0, 0}, "turn the normal"}, Ground{2.5f, {0, -1, 0, 2}, "turn the normal"},
                Ground{2.5f, {0, -1, 0, -2}, "change the signs of normal and offset"},
                Ground{-1.5f, {0, 1, 0, 2}, "change the sign of the offset"},
-               Ground{1, {0, 1, 0, 100}, "check its normal and height"});
+               Ground{1, {0, 1, 0, 100}, "check its normal and height"},
+               // High above the given plane, and on the plane without a likely mistake.
+               Ground{2, {0, 1, 0, -1.6f}, "change the sign of the offset"},
+               Ground{10, {0, 1, 0, 0.096f}, "in the unit of the poses"},
+               Ground{1, {0, 1, 0, 60}, "in the unit of the poses"});
   INFO("height " << ground.height << ", normal " << ground.plane[1] << ", offset " << ground.plane[3]);
   LogStage log;
   const std::uint32_t count = log.stage.info.bone_count;
@@ -322,6 +326,80 @@ TEST_CASE("a ground above much of the body is logged once for an instance, with 
     CHECK(has(log.warnings[i], ("instance " + std::to_string(log.ids[i])).c_str()));
     CHECK(has(log.warnings[i], ground.advice));
   }
+}
+
+TEST_CASE("a body that never comes near its ground is mentioned after ten seconds of updates") {
+  const float height = GENERATE(0.6f, 4.0f);  // the body is about 0.7 m tall
+  const bool lands = GENERATE(false, true);
+  LogStage log;
+  const std::uint32_t count = log.stage.info.bone_count;
+  Rows raised = identity, landed = identity;
+  raised[7] = height;
+  landed[7] = 0.5f;
+  const std::vector<Rows> high(count, raised), low(count, landed);
+  const nook_pose_desc flies = pose_of_rows(high[0].data(), count),
+                       stands = pose_of_rows(low[0].data(), count);
+  const float plane[4] = {0, 1, 0, 0};
+  for (const nook_instance_id id : log.ids) REQUIRE(nook_scene_set_ground(log.scene, id, plane) == NOOK_OK);
+  for (int frame = 0; frame < 620; ++frame) {
+    for (const nook_instance_id id : log.ids)
+      REQUIRE(nook_scene_set_pose(log.scene, id, lands && frame == 100 ? &stands : &flies) == NOOK_OK);
+    REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  }
+  CHECK(log.warnings.empty());
+  REQUIRE(log.infos.size() == (height > 2 && !lands ? 2u : 0u));
+  for (const std::string& line : log.infos)
+    CHECK(has(line, "never nearer to its ground than its own height"));
+}
+
+TEST_CASE("a distance of links that is too short for every body is logged once") {
+  struct Links {
+    float distance;  // the sample's radius is 0.9 m
+    bool is_logged;
+  };
+  const Links links = GENERATE(Links{3, false}, Links{0.5f, false}, Links{0.03f, true});
+  LogStage log;
+  const std::uint32_t count = log.stage.info.bone_count;
+  const std::vector<Rows> rows(count, identity);
+  const nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
+  Rows moved = identity;
+  moved[3] = 1;
+  const std::vector<Rows> beside(count, moved);
+  const nook_pose_desc other = pose_of_rows(beside[0].data(), count);
+  REQUIRE(nook_scene_set_pose(log.scene, log.ids[0], &desc) == NOOK_OK);
+  REQUIRE(nook_scene_set_pose(log.scene, log.ids[1], &other) == NOOK_OK);
+  REQUIRE(nook_scene_link_nearest(log.scene, 4, links.distance) == NOOK_OK);
+  for (int frame = 0; frame < 3; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  REQUIRE(log.warnings.size() == (links.is_logged ? 1u : 0u));
+  if (links.is_logged) CHECK(has(log.warnings[0], "nook_scene_link_nearest: max_distance is so short"));
+  // A small body may stand close to another one.
+  if (!links.is_logged) return;
+  log.warnings.clear();
+  Rows small = identity;
+  for (const std::size_t i : {0, 5, 10}) small[i] = 0.02f;
+  small[3] = 0.02f;
+  const std::vector<Rows> mouse(count, small);
+  const nook_pose_desc third = pose_of_rows(mouse[0].data(), count);
+  REQUIRE(nook_scene_set_pose(log.scene, log.ids[1], &third) == NOOK_OK);
+  REQUIRE(nook_scene_link_nearest(log.scene, 4, links.distance) == NOOK_OK);
+  for (int frame = 0; frame < 3; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  CHECK(log.warnings.empty());
+}
+
+TEST_CASE("an occluder that contains a whole body is logged once for the instance") {
+  const float unit = GENERATE(1.0f, 100.0f);
+  LogStage log;
+  const std::uint32_t count = log.stage.info.bone_count;
+  const std::vector<Rows> rows(count, identity);
+  const nook_pose_desc desc = pose_of_rows(rows[0].data(), count);
+  REQUIRE(nook_scene_set_pose(log.scene, log.ids[0], &desc) == NOOK_OK);
+  // A ball at the knee.
+  const nook_occluder ball{{0.02f * unit, -0.05f * unit, 0.06f * unit}, 0.1f * unit, log.ids[0]};
+  nook_occluder_id id = 0;
+  REQUIRE(nook_scene_add_occluder(log.scene, &ball, &id) == NOOK_OK);
+  for (int frame = 0; frame < 3; ++frame) REQUIRE(nook_scene_update(log.scene) == NOOK_OK);
+  REQUIRE(log.warnings.size() == (unit > 1 ? 1u : 0u));
+  if (unit > 1) CHECK(has(log.warnings[0], "contains the whole body"));
 }
 
 TEST_CASE("in a crowd, some later update logs a ground above the body") {

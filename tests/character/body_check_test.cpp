@@ -130,6 +130,34 @@ TEST_CASE("a ground above much of a standing body is called wrong, with the like
   }
 }
 
+TEST_CASE("a metre too high is wrong for large bodies too, but only their feet sink in") {
+  const float size = GENERATE(2.0f, 3.0f, 5.0f);
+  CharacterModel model = standing_body();
+  for (ProxySphere& sphere : model.spheres) {
+    sphere.centre = size * sphere.centre;
+    sphere.radius *= size;
+  }
+  for (KeyPoint& point : model.key_points) point.position = point.surface_position = size * point.position;
+  model.bounding_centre = size * model.bounding_centre;
+  model.bounding_radius *= size;
+  Scene scene = make_scene();
+  const auto loaded = load(model);
+  const nook_instance_id id = add_instance(scene, loaded);
+  set_pose(scene, id, std::vector<Mat3x4>(loaded->model.bone_count(), Mat3x4{}));
+  const auto on = [&](float offset) {
+    const Plane plane{{0, 1, 0}, offset};
+    set_ground(scene, id, &plane);
+    return check_ground(instance_of(scene, id));
+  };
+  INFO(size << " times as large as a person");
+  CHECK_FALSE(on(0).is_wrong);
+  CHECK_FALSE(on(0.35f).is_wrong);  // deep snow, or a step of stairs
+  const GroundFinding finding = on(1);
+  CHECK(finding.is_wrong);
+  // The plane with the offset -1 is a metre below the feet, which is little for a large body.
+  CHECK(finding.mistake == GroundMistake::height);
+}
+
 TEST_CASE("how deep a clip is below its ground is told by its bones, which stay as they are") {
   Posed body(PoseIs::in_clip, turned(upright, -3));
   const GroundFinding finding = body.on({});

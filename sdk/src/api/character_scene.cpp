@@ -144,7 +144,10 @@ nook_result nook_scene_unlink(nook_scene scene, nook_instance_id receiver, nook_
 }
 
 nook_result nook_scene_link_nearest(nook_scene scene, uint32_t k, float max_distance) {
-  return with_scene("nook_scene_link_nearest", scene, [&](Scene& s) { link_nearest(s, k, max_distance); });
+  return with_scene("nook_scene_link_nearest", scene, [&](Scene& s) {
+    link_nearest(s, k, max_distance);
+    scene->links_reported = false;
+  });
 }
 
 nook_result nook_scene_set_ground(nook_scene scene, nook_instance_id instance, const float* plane_xyzd) {
@@ -201,7 +204,7 @@ nook_result nook_scene_update(nook_scene scene) {
     need_cpu_poses(s);
     make_arrays(s);
     update(s);
-    api::log_bodies(*scene->context, s);
+    api::log_bodies(*scene);
   });
 }
 

@@ -58,5 +58,7 @@ struct nook_scene_s : Meter, nook::RefCounted {
   // True after the host destroyed the scene. Data that other objects still keep for the scene must then not
   // be used.
   std::atomic<bool> destroyed{false};
+  // True after the log has said that the distance of nook_scene_link_nearest links nobody.
+  bool links_reported = false;
   nook::Scene scene;
 };

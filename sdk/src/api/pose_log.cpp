@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdio>
 
+#include "sdk/src/api/handles.h"
 #include "sdk/src/character/body_check.h"
 #include "sdk/src/character/gpu_pose.h"
 #include "sdk/src/character/scene_pool.h"
@@ -88,6 +89,8 @@ const char* advice_of(GroundMistake mistake) {
       return "change the signs of normal and offset, as the normal must point out of the floor";
     case GroundMistake::offset_sign:
       return "change the sign of the offset, which is dot(normal, p) of a point p on the floor";
+    case GroundMistake::unit:
+      return "give the offset, which is dot(normal, p) of a point p on the floor, in the unit of the poses";
     default:
       return "check its normal and height: the offset is dot(normal, p) of a point p on the floor, in the "
              "unit of the "
@@ -95,9 +98,38 @@ const char* advice_of(GroundMistake mistake) {
   }
 }
 
-void log_ground(const Context& context, Instance& instance) {
+void log_high(const Context& context, Instance& instance, const GroundFinding& finding) {
+  instance.input.reported |= topic_ground;
+  context.log(NOOK_LOG_WARNING,
+              "instance %u: the body is %.3g above its ground, which is more than its own height, so the "
+              "ground does not darken it (got the offset %g; the body stands on the plane with the offset "
+              "%g); %s",
+              instance.id, -double(finding.depth), double(instance.input.ground.offset),
+              double(finding.offset), advice_of(finding.mistake));
+}
+
+// A body that came near its ground once has a right ground. Birds and climbers may never come near, so this
+// is not a warning.
+void log_floating(const Context& context, const Scene& scene, Instance& instance,
+                  const GroundFinding& finding) {
+  constexpr std::uint64_t updates = 600;
+  if (instance.input.reported & topic_floats) return;
+  if (finding.floats && scene.frame < instance.added_frame + updates) return;
+  instance.input.reported |= topic_floats;
+  if (!finding.floats) return;
+  context.log(NOOK_LOG_INFO,
+              "instance %u: since it was added, the body was never nearer to its ground than its own height, "
+              "so the ground never darkened it (it is %.3g above the offset %g); if the body does not fly or "
+              "climb, check the offset, which is dot(normal, p) of a point p on the floor, in the unit of "
+              "the poses",
+              instance.id, -double(finding.depth), double(instance.input.ground.offset));
+}
+
+void log_ground(const Context& context, const Scene& scene, Instance& instance) {
   if (!instance.input.has_ground || (instance.input.reported & topic_ground)) return;
   const GroundFinding finding = check_ground(instance);
+  if (finding.is_wrong && finding.floats) return log_high(context, instance, finding);
+  log_floating(context, scene, instance, finding);
   if (!finding.is_wrong) return;
   instance.input.reported |= topic_ground;
   const Plane& ground = instance.input.ground;
@@ -134,6 +166,19 @@ void log_same_place(const Context& context, const Scene& scene, Instance& instan
       instance.id, other->id);
 }
 
+void log_occluder(const Context& context, const Scene& scene, Instance& instance) {
+  if (instance.input.reported & topic_in_occluder) return;
+  const Occluder* const around = occluder_around(scene, instance);
+  if (!around) return;
+  instance.input.reported |= topic_in_occluder;
+  context.log(
+      NOOK_LOG_WARNING,
+      "instance %u: occluder %u contains the whole body, which makes the body black (got the radius "
+      "%g of the occluder and %.3g of the body); give the occluder's centre and radius in the unit of "
+      "the poses",
+      instance.id, around->id, double(around->sphere.radius), double(instance.input.bound.radius));
+}
+
 // A host may call updates while it loads, before it poses a body. Until then, the body is at the origin, so
 // warnings about its ground or about another body at the same place would be wrong.
 bool is_loading(const Scene& scene, const Instance& instance) {
@@ -143,9 +188,24 @@ bool is_loading(const Scene& scene, const Instance& instance) {
 
 void log_body(const Context& context, const Scene& scene, Instance& instance) {
   if (!instance.id || is_loading(scene, instance)) return;
-  if (scene.terms & NOOK_TERM_GROUND) log_ground(context, instance);
+  if (scene.terms & NOOK_TERM_GROUND) log_ground(context, scene, instance);
+  if (scene.terms & NOOK_TERM_OCCLUDERS) log_occluder(context, scene, instance);
   if (scene.terms & NOOK_TERM_LINKS) log_same_place(context, scene, instance);
   log_size(context, instance);
+}
+
+// Calls links_nobody, which reads all instances, only if one body alone is too large for the distance.
+void log_links(const Context& context, nook_scene_s& handle, const Instance& instance) {
+  const Scene& scene = handle.scene;
+  if (handle.links_reported || !instance.id || is_loading(scene, instance)) return;
+  const float radius = instance.input.bound.radius;
+  if (!(scene.nearest_max_distance < 0.5f * radius) || !links_nobody(scene)) return;
+  handle.links_reported = true;
+  context.log(NOOK_LOG_WARNING,
+              "nook_scene_link_nearest: max_distance is so short that no body is ever linked (got %g, but "
+              "instance %u has the radius %.3g); give the largest distance between the centres of two bodies "
+              "in the unit of the poses, such as 3 in metres or 300 in centimetres",
+              double(scene.nearest_max_distance), instance.id, double(radius));
 }
 
 // Sets a bit, and returns true if it was 0 before. It is atomic, because several threads may read the AO of
@@ -160,13 +220,16 @@ bool set_once(std::uint32_t& bits, std::uint32_t bit) noexcept {
 
 }  // namespace
 
-void log_bodies(const Context& context, Scene& scene) {
+void log_bodies(nook_scene_s& handle) {
   constexpr std::size_t at_once = 16;
+  const Context& context = *handle.context;
+  Scene& scene = handle.scene;
   const std::size_t slots = scene.instances.size();
   if (slots == 0) return;
   const std::size_t first = scene.frame * at_once % slots;
   for (std::size_t i = 0; i < std::min(at_once, slots); ++i)
     log_body(context, scene, scene.instances[(first + i) % slots]);
+  if (scene.terms & NOOK_TERM_LINKS) log_links(context, handle, scene.instances[first]);
 }
 
 void log_missing_update(const Context& context, Instance& instance) {

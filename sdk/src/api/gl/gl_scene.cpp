@@ -87,7 +87,7 @@ nook_result nook_gl_scene_prepare(nook_gl gl, nook_scene scene) {
 nook_result nook_gl_scene_update(nook_gl gl, nook_scene scene) {
   return api::with_gl_scene("nook_gl_scene_update", gl, scene, [&] {
     gl->guarded([&] { gl->characters->update(api::handle_of(scene)); });
-    api::log_bodies(*scene->context, scene->scene);
+    api::log_bodies(*scene);
   });
 }
 
