@@ -258,6 +258,8 @@ TEST_CASE("more transforms than needed are taken with a flag, and logged once wi
   desc.transform_count = count - 1;
   CHECK(nook_scene_set_pose(log.scene, log.ids[0], &desc) == NOOK_ERROR_INVALID_ARGUMENT);
   CHECK(has(nook_last_message(), "desc.transform_count"));
+  const std::string vertices = std::to_string(log.stage.info.file_vertex_count) + " vertices: load its own";
+  CHECK(has(nook_last_message(), vertices.c_str()));
 }
 
 TEST_CASE("a clip at an uneven place is logged once for an instance and once for reading its pose") {

@@ -311,8 +311,30 @@ TEST_CASE("checks and matches refuse what they cannot compare") {
   const std::uint32_t none[2] = {0, NOOK_NO_VERTEX};
   nook_model remapped = nullptr;
   CHECK(nook_model_remap(stage.model, none, 2, &remapped) == NOOK_ERROR_INVALID_ARGUMENT);
-  CHECK(last_mentions("NOOK_NO_VERTEX"));
+  CHECK(last_mentions("vertices[1] is NOOK_NO_VERTEX, as are 1 of 2"));
+  CHECK(last_mentions("glVertexAttrib1f"));
   CHECK(remapped == nullptr);
+  const std::uint32_t far[1] = {stage.info.file_vertex_count};
+  CHECK(nook_model_remap(stage.model, far, 1, &remapped) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("vertices[0] is out of range"));
+}
+
+TEST_CASE("a model of another mesh is named as such, with its number of vertices") {
+  const Stage stage;
+  const std::string vertices = std::to_string(stage.info.file_vertex_count);
+  const float far[6] = {50, 50, 50, 51, 50, 50};
+  const nook_vertex_match_desc match = match_desc(far, 2);
+  std::uint32_t found[2];
+  nook_vertex_match_info info{};
+  info.struct_size = sizeof info;
+  REQUIRE(nook_model_match_vertices(stage.model, &match, found, &info) == NOOK_OK);
+  CHECK(info.unmatched == 2);
+  CHECK(std::string(info.text).find("2 of 2 vertices are not near any of the model's " + vertices) == 0);
+  CHECK(std::string(info.text).find("baked for another mesh") != std::string::npos);
+  std::vector<float> ao(stage.info.file_vertex_count + 1);
+  CHECK(nook_scene_read(stage.scene, stage.first, NOOK_CHANNEL_AO, NOOK_FORMAT_FLOAT, ao.data(),
+                        stage.info.file_vertex_count + 1, 0) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(last_mentions("baked for another mesh"));
 }
 
 TEST_CASE("a remapped model gives the same AO in the host's order") {

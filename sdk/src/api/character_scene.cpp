@@ -64,7 +64,10 @@ std::size_t check_output(const Instance& instance, uint32_t count, size_t stride
   const std::size_t file_vertices = instance.model->model.file_to_welded.size();
   if (count != file_vertices)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                  "count is not the model's file_vertex_count (got %u, need %zu)", count, file_vertices);
+                  "count is not the model's file_vertex_count (got %u, need %zu); if your mesh has %u "
+                  "vertices, the model was baked for another mesh: load the model of this mesh, or match the "
+                  "vertices with nook_model_match_vertices",
+                  count, file_vertices, count);
   return checked_stride("stride", stride, count, entry_bytes);
 }
 

@@ -2,6 +2,7 @@
 #include <nook/experimental/nook_match.h>
 #include <nook/nook_character.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -112,12 +113,18 @@ const char* missing_evidence(const nook_vertex_match_desc& match, bool has_trian
   return "keep the order of the file's vertices, or move the vertices apart and bake again";
 }
 
-void describe_matches(const VertexMatches& matches, const nook_vertex_match_desc& match, bool has_triangles,
-                      nook_vertex_match_info& info) {
+void describe_matches(const CharacterModel& model, const VertexMatches& matches,
+                      const nook_vertex_match_desc& match, bool has_triangles, nook_vertex_match_info& info) {
   info.unmatched = matches.unmatched;
   info.ambiguous = matches.ambiguous;
   int used = 0;
-  if (matches.unmatched > 0)
+  if (matches.unmatched > match.vertex_count / 2)
+    used = std::snprintf(info.text, sizeof info.text,
+                         "%u of %u vertices are not near any of the model's %zu vertices; either the model "
+                         "was baked for another mesh and you need the model of this mesh, or the positions "
+                         "have another unit or space (see desc.in_rest_space)",
+                         matches.unmatched, match.vertex_count, model.file_to_welded.size());
+  else if (matches.unmatched > 0)
     used = std::snprintf(info.text, sizeof info.text,
                          "%u of %u vertices are not near any vertex of the model; the first is vertex %u; "
                          "check the mesh and its unit",
@@ -146,9 +153,24 @@ void match(const nook_model_s& model, const nook_vertex_match_desc& match, const
   const VertexMatches matches =
       match_vertices(model.model, host, {vertices, host.count}, model.context->memory());
   nook_vertex_match_info answer{};
-  describe_matches(matches, match, host.face_normal.first != nullptr, answer);
+  describe_matches(model.model, matches, match, host.face_normal.first != nullptr, answer);
   if (matches.ambiguous > 0) model.context->log(NOOK_LOG_WARNING, "%s: %s", call, answer.text);
   if (info) write_info(info, answer);
+}
+
+// `i` is the first vertex without a match.
+[[noreturn]] void refuse_vertex(std::span<const uint32_t> vertices, uint32_t i, std::size_t known) {
+  if (vertices[i] != NOOK_NO_VERTEX)
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "vertices[%u] is out of range (got %u, need less than %zu)", i,
+                  vertices[i], known);
+  const auto missing = std::count(vertices.begin(), vertices.end(), NOOK_NO_VERTEX);
+  throw Failure(
+      NOOK_ERROR_INVALID_ARGUMENT,
+      "vertices[%u] is NOOK_NO_VERTEX, as are %td of %zu (need less than %zu); match with a larger "
+      "tolerance, "
+      "or check the mesh and its unit. Draw a part that was not baked without Nook: with the constant vertex "
+      "attribute 1 in place of AO (glDisableVertexAttribArray and glVertexAttrib1f), or bake it too",
+      i, missing, vertices.size(), known);
 }
 
 }  // namespace
@@ -187,12 +209,7 @@ nook_result nook_model_remap(nook_model model, const uint32_t* vertices, uint32_
     check_fits("count", count, count != 0, "at least 1");
     const std::size_t known = model->model.file_to_welded.size();
     for (uint32_t i = 0; i < count; ++i)
-      if (vertices[i] >= known)
-        throw Failure(
-            NOOK_ERROR_INVALID_ARGUMENT,
-            "vertices[%u] is %s (got %u, need less than %zu); match with a larger tolerance, or check the "
-            "mesh",
-            i, vertices[i] == NOOK_NO_VERTEX ? "NOOK_NO_VERTEX" : "out of range", vertices[i], known);
+      if (vertices[i] >= known) refuse_vertex({vertices, count}, i, known);
     const auto context = Ref<nook_context_s>::share(model->context);
     const auto remap = [&](Memory* memory) { return remapped(model->model, {vertices, count}, memory); };
     *out = Owned<nook_model_s>::make(context->memory(), context, context, remap).detach();

@@ -64,21 +64,24 @@ Affine of_trs(const float* v) {
 }
 
 // Without a map of the bones, only the first `expected` transforms are used.
-void take_surplus_off(PoseSource& source, std::size_t expected) {
+void take_surplus_off(const CharacterModel& model, PoseSource& source, std::size_t expected) {
   const std::uint32_t got = source.transform_count;
   if (got == expected) return;
   const char* const what = source.kind == NOOK_POSE_SKINNING ? "joints of the skin" : "bones of the model";
   if (got < expected)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "desc.transform_count is less than the number of %s (got %u, need %zu); set "
-                  "desc.transform_of_bone if the transforms have another order",
-                  what, got, expected);
+                  "desc.transform_of_bone if the transforms have another order. If your character never has "
+                  "%zu, the model was baked for another one, with %zu bones and %zu vertices: load its own",
+                  what, got, expected, expected, model.bone_count(), model.file_to_welded.size());
   if (!source.allows_surplus)
     throw Failure(
         NOOK_ERROR_INVALID_ARGUMENT,
         "desc.transform_count is more than the number of %s (got %u, need %zu); set NOOK_POSE_FLAG_SURPLUS "
-        "to use only the first %zu, or set desc.transform_of_bone if the transforms have another order",
-        what, got, expected, expected);
+        "to use only the first %zu, or set desc.transform_of_bone if the transforms have another order. If "
+        "your character always has %u, the model was baked for another one, with %zu bones and %zu vertices: "
+        "load its own",
+        what, got, expected, expected, got, model.bone_count(), model.file_to_welded.size());
   source.transform_count = static_cast<std::uint32_t>(expected);
 }
 
@@ -128,7 +131,8 @@ void check_pose_source(const CharacterModel& model, PoseSource& source, bool nee
   if (is_skinning) source.skin = find_skin(model, source.file_skin);
   source.given_count = source.transform_count;
   if (source.transform_of_bone.empty())
-    take_surplus_off(source, is_skinning ? model.bind.skins[source.skin].joint_count : model.bone_count());
+    take_surplus_off(model, source,
+                     is_skinning ? model.bind.skins[source.skin].joint_count : model.bone_count());
   for (std::size_t b = 0; b < source.transform_of_bone.size(); ++b)
     if (source.transform_of_bone[b] < -1 ||
         (source.transform_of_bone[b] >= 0 &&
@@ -245,8 +249,9 @@ void fail_uneven(const CharacterModel& model, std::size_t bone, const BoneAxes<d
 void fail_without_transform(const CharacterModel& model, std::size_t bone) {
   throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                 "bone %zu (\"%s\") has no transform; map the bone, or set NOOK_POSE_FLAG_PARTIAL and pose "
-                "the other skins and rigid parts in separate calls",
-                bone, name_of(model, bone));
+                "the other skins and rigid parts in separate calls. If your character has no such bone, the "
+                "model was baked for another one, with %zu bones and %zu vertices: load its own",
+                bone, name_of(model, bone), model.bone_count(), model.file_to_welded.size());
 }
 
 void fail_without_joint(const CharacterModel& model, const SkinBind& skin) {

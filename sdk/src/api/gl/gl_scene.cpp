@@ -116,8 +116,12 @@ nook_result nook_gl_scene_read(nook_gl gl, nook_scene scene, nook_instance_id in
     need(out, "out");
     const gl::VertexValues values = place_of(*gl, *scene, instance, channel);
     if (count != values.vertices)
-      throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
-                    "count is not the model's file_vertex_count (got %u, need %u)", count, values.vertices);
+      throw Failure(
+          NOOK_ERROR_INVALID_ARGUMENT,
+          "count is not the model's file_vertex_count (got %u, need %u); if your mesh has %u "
+          "vertices, the model was baked for another mesh: load the model of this mesh, or match the "
+          "vertices with nook_model_match_vertices",
+          count, values.vertices, count);
     gl->guarded([&] { gl->characters->read(values, out); });
   });
 }
