@@ -56,12 +56,14 @@
 
 // What surface.frag counts for SurfaceWatch. SURFACE: pixels with a surface. UNMASKED: surfaces that the
 // host's mask does not replace. FAR_ENOUGH: surfaces at which the radius is at most as large as the picture
-// is high. NEAR_ENOUGH: surfaces at which the radius covers at least two pixels.
+// is high. NEAR_ENOUGH: surfaces at which the radius covers at least two pixels. REVERSED: surfaces that
+// would be both if the stored depth were 1 minus the stored depth.
 #define NOOK_WATCH_SURFACE 0
 #define NOOK_WATCH_UNMASKED 1
 #define NOOK_WATCH_FAR_ENOUGH 2
 #define NOOK_WATCH_NEAR_ENOUGH 3
-#define NOOK_WATCH_COUNT 4
+#define NOOK_WATCH_REVERSED 4
+#define NOOK_WATCH_COUNT 5
 
 // The noise of the taps repeats after this many pixels along each axis, and the filter averages over the same
 // number of pixels.

@@ -325,6 +325,36 @@ TEST_CASE("debug: a radius in another unit than the depth is logged, once") {
   }
 }
 
+TEST_CASE("debug: depth that is reversed without its projection is logged as reversed, not as a radius") {
+  NOOK_NEED_CONTEXT(context);
+  NnaoFixture fixture(context);
+  constexpr int wide = 96, high = 64;
+  CountedContext host;
+  Trace trace(context);
+  const DebugGl gl(context, host.handle, Trace::loader, &trace, 1);
+  const auto reports = [&](const Camera& camera, bool turned) {
+    std::vector<float> stored = stored_depth(camera, look(camera, still_life(), wide, high));
+    for (float& depth : stored) depth = turned ? 1 - depth : depth;
+    nook_nnao pass = create_pass(gl.handle, pass_desc(wide, high));
+    host.log.clear();
+    for (int i = 0; i < 6; ++i) {
+      const ScreenFrame frame =
+          frame_desc(camera, wide, high, fixture.textures.floats(GL_R32F, 1, wide, high, stored), 0, 0.5f);
+      NOOK_OK_OR_FAIL(nook_nnao_render(pass, &frame, &frame));
+      context.gl().Finish();  // so that answers are there
+    }
+    nook_nnao_destroy(&pass);
+    return std::pair(lines_with(host, "looks reversed"), std::ptrdiff_t(host.log.size()));
+  };
+  using Counts = std::pair<std::ptrdiff_t, std::ptrdiff_t>;
+  for (const Camera& camera : cameras(float(wide) / high)) {
+    INFO(camera.name);
+    CHECK((reports(camera, false) == Counts{0, 0}));
+  }
+  // As glDepthRange(1, 0) writes it.
+  CHECK((reports(plain_camera(float(wide) / high), true) == Counts{1, 1}));
+}
+
 TEST_CASE("debug: AO is the same with it, also of two eyes and of samples") {
   NOOK_NEED_CONTEXT(context);
   NnaoFixture fixture(context);

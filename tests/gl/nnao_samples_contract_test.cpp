@@ -8,6 +8,7 @@
 #include "tests/gl/nnao_sampled_images.h"
 #include "tests/gl/poison.h"
 #include "tests/gl/test_context.h"
+#include "tests/gl/world_scene.h"
 
 using namespace nook;
 using namespace nook::test;
@@ -67,7 +68,18 @@ TEST_CASE("nnao: multisampled images are refused where they do not fit, and by t
   refused(pass, flat, 0, "frame.depth_texture is a texture of another kind");
   refused(pass, flat, 0, "need a multisample texture");
   refused(plain, samples, 0, "need a 2D texture without layers or samples");
+  refused(plain, samples, 0, "set nook_nnao_desc.depth_samples to its number of samples");
   refused(plain, flat, normals, "frame.normal_texture is a texture of another kind");
+  refused(plain, flat, normals, "only depth and normals may be");
+  nook_world world = nullptr;
+  const nook_world_desc world_desc = world::world_desc(width, height);
+  NOOK_OK_OR_FAIL(nook_world_create(fixture.gl, &world_desc, &world));
+  const DarkenedFrame darkened(frame_desc(camera, width, height, samples, 0, 0.5f));
+  CHECK(nook_world_render(world, &darkened, &darkened) == NOOK_ERROR_INVALID_ARGUMENT);
+  CHECK(message_has("this pass cannot read: resolve it"));
+  CHECK(context.gl().GetError() == GL_NO_ERROR);
+  take_debug_messages();
+  nook_world_destroy(&world);
   refused(pass, samples, normals, "frame.normal_texture is a texture of another kind");
   refused(both, samples, flat_normals, "frame.normal_texture is a texture of another kind");
   refused(both, samples, flat_normals, "need a multisample texture");

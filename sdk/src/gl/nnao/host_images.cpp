@@ -105,6 +105,34 @@ GLint type_of(const BoundTexture& texture, GLenum channel) {
   return ask_attached(texture, GL_COLOR_ATTACHMENT0, GL_FRAMEBUFFER_ATTACHMENT_COMPONENT_TYPE);
 }
 
+// Returns true if the texture belongs to the given kind.
+bool is_of_kind(const Device& device, const TextureKind& kind, std::uint32_t name) {
+  GLint before = 0, bound = 0;
+  device.gl.GetIntegerv(kind.binding, &before);
+  device.gl.BindTexture(kind.target, name);
+  device.gl.GetIntegerv(kind.binding, &bound);
+  clear_refusal(device);
+  device.gl.BindTexture(kind.target, static_cast<GLuint>(before));
+  return static_cast<std::uint32_t>(bound) == name;
+}
+
+// Says how to pass a multisample texture, if it is one.
+const char* advice_for_samples(const Device& device, const HostImages& images, const TextureKind& needed,
+                               std::uint32_t name, bool is_depth) {
+  const auto& can = device.gl.can;
+  if (has_samples(needed) || !can.sample_textures ||
+      !(is_of_kind(device, sample_texture, name) ||
+        (can.sample_arrays && is_of_kind(device, sample_array, name))))
+    return "";
+  if (!images.may_have_samples)
+    return "; it is multisampled, which this pass cannot read: resolve it to a texture without samples, such "
+           "as with glBlitFramebuffer";
+  return is_depth ? "; it is multisampled: set nook_nnao_desc.depth_samples to its number of samples, or "
+                    "resolve it to a texture without samples"
+                  : "; it is multisampled: only depth and normals may be (nook_nnao_desc.depth_samples and "
+                    "normal_samples)";
+}
+
 // Binds and checks a texture. The texture is still bound when the function returns.
 BoundTexture bind_checked(const Device& device, const HostImages& images, ImageFacts& facts,
                           const TextureKind& kind, std::uint32_t name, GLuint framebuffer,
@@ -121,8 +149,8 @@ BoundTexture bind_checked(const Device& device, const HostImages& images, ImageF
   gl.GetIntegerv(kind.binding, &bound);
   if (static_cast<std::uint32_t>(bound) != name) {
     clear_refusal(device);
-    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is a texture of another kind (got %u, need a %s)", field,
-                  name, kind.name);
+    throw Failure(NOOK_ERROR_INVALID_ARGUMENT, "%s is a texture of another kind (got %u, need a %s)%s", field,
+                  name, kind.name, advice_for_samples(device, images, kind, name, name == images.depth));
   }
   GLint base_level = 0;
   gl.GetTexParameteriv(kind.target, GL_TEXTURE_BASE_LEVEL, &base_level);

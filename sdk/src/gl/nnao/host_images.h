@@ -15,6 +15,8 @@ struct HostImages {
   int layers = 0;   // layers of texture arrays; 0: 2D textures
   int samples = 0;  // samples of the depth texture; 0: it is not a multisample texture
   int normal_samples = 0;
+  // False for the world pass, whose descriptor cannot declare multisample textures.
+  bool may_have_samples = true;
   nook_depth_kind depth_kind = 0;
   nook_gbuffer_ao layer = 0;
   nook_target target = 0;

@@ -17,6 +17,9 @@ bool SurfaceWatch::asks(int question) const {
     case NOOK_WATCH_FAR_ENOUGH:
     case NOOK_WATCH_NEAR_ENOUGH:
       return has_radius_ && frame_.radius_kind != NOOK_NNAO_RADIUS_SCREEN;
+    case NOOK_WATCH_REVERSED:
+      return has_radius_ && frame_.radius_kind != NOOK_NNAO_RADIUS_SCREEN &&
+             frame_.depth_kind == NOOK_DEPTH_HARDWARE;
     default:
       return true;
   }
@@ -70,17 +73,40 @@ void SurfaceWatch::judge(const Device& device) {
   for (int question = 0; question < questions; ++question) {
     // Without a surface, the other questions have no answer.
     if (!asks(question) || (question != NOOK_WATCH_SURFACE && seen == 0)) continue;
+    if (question == NOOK_WATCH_REVERSED) continue;  // it only explains a radius that does not fit
     // A radius that fits at least 1 of 20 pixels is probably intended. Queries of OpenGL ES only return
     // whether any pixel was drawn, so there the radius is wrong only if it fits no pixel.
     const bool is_radius = question == NOOK_WATCH_FAR_ENOUGH || question == NOOK_WATCH_NEAR_ENOUGH;
     const std::uint64_t pixels = queries_[std::size_t(question)].pixels;
     const bool is_wrong = is_radius ? 20 * pixels < seen : pixels == 0;
     bool &was_wrong = was_wrong_[std::size_t(question)], &was_right = was_right_[std::size_t(question)];
-    if (is_wrong && !was_wrong && !was_right) report(device, question);
+    if (is_wrong && !was_wrong && !was_right) {
+      // Reversed depth is close to the near plane, where every radius is large.
+      if (question == NOOK_WATCH_FAR_ENOUGH && looks_reversed(seen))
+        report_reversed(device);
+      else
+        report(device, question);
+    }
     was_wrong = is_wrong;
     // A missing surface is reported even if earlier frames had one: the host may have stopped drawing depth.
     if (question != NOOK_WATCH_SURFACE) was_right |= !is_wrong;
   }
+}
+
+// True if the radius would fit most surfaces with reversed depth. OpenGL ES only tells whether it would fit
+// any.
+bool SurfaceWatch::looks_reversed(std::uint64_t seen) const {
+  return asks(NOOK_WATCH_REVERSED) && 2 * std::uint64_t{queries_[NOOK_WATCH_REVERSED].pixels} >= seen;
+}
+
+void SurfaceWatch::report_reversed(const Device& device) const {
+  device.context.log(
+      NOOK_LOG_WARNING,
+      "nook_gl: the depth of an earlier frame looks reversed: at almost all surfaces of frame.depth_texture "
+      "%u, the radius %g fits only if depth is 1 minus the stored value; draw depth with glDepthRange(0, 1). "
+      "If your projection reverses depth, set frame.projection to that projection, as it drew the depth, and "
+      "frame.clip_space to its range",
+      frame_.depth_texture, double(frame_.radius));
 }
 
 void SurfaceWatch::report(const Device& device, int question) const {

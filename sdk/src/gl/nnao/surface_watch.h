@@ -6,6 +6,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 
 #include "sdk/src/gl/nnao/nnao_frame.h"
 #include "sdk/src/gl/object.h"
@@ -39,6 +40,8 @@ class SurfaceWatch {
   bool read(const Device& device);
   void forget_changed(const NnaoFrame& next);
   void judge(const Device& device);
+  bool looks_reversed(std::uint64_t seen) const;
+  void report_reversed(const Device& device) const;
   void report(const Device& device, int question) const;
 
   std::array<Query, questions> queries_;

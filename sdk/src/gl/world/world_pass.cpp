@@ -254,6 +254,7 @@ void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   NnaoFrame& screen = frame.screen;
   HostImages images = images_of(screen, desc_);
   images.ao = frame.ao_texture;
+  images.may_have_samples = false;
   screen.normalised_normals = check(images, screen.textures_changed).normalised_normals;
   casters_.write(device_, frame, groups);
   const GLuint layer = screen.gbuffer_ao != NOOK_GBUFFER_AO_NONE ? screen.gbuffer_ao_texture : 0;
