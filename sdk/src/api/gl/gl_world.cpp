@@ -6,6 +6,7 @@
 #include "sdk/src/api/entry.h"
 #include "sdk/src/api/gl/handle.h"
 #include "sdk/src/api/gl/nnao_descriptors.h"
+#include "sdk/src/api/gl/world_log.h"
 #include "sdk/src/api/pose_log.h"
 #include "sdk/src/api/world_casting.h"
 #include "sdk/src/core/checks.h"
@@ -37,6 +38,7 @@ struct nook_world_s : RefCounted {
   nook_gl_s* gl;
   nook_world_desc desc;
   std::optional<gl::WorldPass> pass;
+  api::WorldReports reports;
 };
 
 namespace {
@@ -155,6 +157,8 @@ nook_result nook_world_render(nook_world pass, const nook_gl_frame_desc* frame,
     gl::WorldFrame drawn{
         screen, screen.view, known.ao_texture, known.combine, known.level_error, shown(known.next), {}, {}};
     put_light(drawn, known, pass->desc.coloured != 0, pass->gl->device.context.units_per_metre());
+    api::log_world_frame(pass->gl->device.context, pass->reports, screen.view, screen.gbuffer_ao, known,
+                         known.scene ? &known.scene->scene : nullptr);
     pass->gl->guarded(world_users(pass->gl->device.gl, pass->pass->computes()),
                       [&] { pass->pass->render(drawn, groups); });
   });

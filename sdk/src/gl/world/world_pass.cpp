@@ -75,7 +75,10 @@ WorldPass::WorldPass(Device& device, const nook_world_desc& desc)
   output_ = output("");
   layered_output_ = output("#define NOOK_LAYERED 1\n");
   if (half_) make_half(desc);
-  if (device.debug) make_watch(make_draw("nnao/surface.frag", ""), false);
+  if (device.debug) {
+    make_watch(make_draw("nnao/surface.frag", ""), false);
+    make_body_watch();
+  }
   own_ = RenderTexture(device, result_format(coloured_), desc.max_width, desc.max_height,
                        "nook: AO of the world");
   casters_.reserve(device, desc.capsules);
@@ -218,6 +221,35 @@ void WorldPass::set_light(const Stage& stage, const WorldFrame& frame) const {
   gl.Uniform4fv(stage.cone, NOOK_CONE_VEC4S, cone.data());
 }
 
+void WorldPass::make_body_watch() {
+  body_watch_.emplace(device_);
+  body_stage_.stage = make_draw("world/bodies.frag", "");
+  const auto at = [&](const char* name) {
+    return uniform_location(device_, body_stage_.stage.program, name);
+  };
+  body_stage_.question = at("nook_question");
+  body_stage_.count = at("nook_body_count");
+  body_stage_.spheres = at("nook_body_spheres");
+  body_stage_.light = at("nook_watched_light");
+}
+
+void WorldPass::watch_bodies(const WorldFrame& frame, const ReachingGroups& groups,
+                             const FrameConstants& constants) {
+  if (!body_watch_ || !body_watch_->begin_frame(device_, frame, groups)) return;
+  const Functions& gl = device_.gl;
+  for (int question = 0; question < BodyWatch::questions; ++question) {
+    if (!body_watch_->begin(device_, question)) continue;
+    ScreenPass::set_frame(body_stage_.stage, constants);
+    const WatchedBodies& bodies = body_watch_->bodies(question);
+    gl.Uniform1i(body_stage_.question, question);
+    gl.Uniform1i(body_stage_.count, static_cast<GLint>(bodies.count));
+    gl.Uniform4fv(body_stage_.spheres, 2 * NOOK_WATCHED_BODIES, bodies.spheres.data());
+    gl.Uniform4fv(body_stage_.light, 1, body_watch_->light().data());
+    draw(own_.framebuffer(), viewport_of(frame.screen), false);
+    body_watch_->end(device_);
+  }
+}
+
 void WorldPass::draw_depth(const WorldFrame& frame, const FrameConstants& constants) const {
   const Viewport viewport = viewport_of(frame.screen);
   set_frame(frame.screen.gbuffer_ao >= NOOK_GBUFFER_AO_REPLACE ? masked_half_depth_ : half_depth_, frame,
@@ -267,6 +299,7 @@ void WorldPass::render(const WorldFrame& frame, const ReachingGroups& groups) {
   casters_.bind(device_);
   bind_texture(NOOK_UNIT_LAYER, layer);
   const FrameConstants constants = frame_constants(screen, desc_, 0);
+  watch_bodies(frame, groups, constants);
   if (half_) {
     draw_depth(frame, constants);
     bind_texture(darkening_depth_unit, depth_.texture());

@@ -13,6 +13,7 @@
 #include <optional>
 
 #include "sdk/src/gl/nnao/screen_pass.h"
+#include "sdk/src/gl/world/body_watch.h"
 #include "sdk/src/gl/world/frame_casters.h"
 #include "sdk/src/gl/world/world_frame.h"
 
@@ -49,6 +50,10 @@ class WorldPass : public ScreenPass {
   void make_half(const nook_world_desc& desc);
   void set_light(const Stage& stage, const WorldFrame& frame) const;
   void set_frame(const Stage& stage, const WorldFrame& frame, const FrameConstants& constants) const;
+  void make_body_watch();
+  // If the watch exists, checks whether the bodies of the frame are where depth shows them. The host's depth
+  // and mask must be bound. Draws into the pass's own texture, which the frame overwrites later.
+  void watch_bodies(const WorldFrame& frame, const ReachingGroups& groups, const FrameConstants& constants);
   void draw_depth(const WorldFrame& frame, const FrameConstants& constants) const;
   // Draws or dispatches the current program, which must be an AO stage at half resolution.
   void darken(const RenderTexture& target, int width, int height) const;
@@ -62,6 +67,11 @@ class WorldPass : public ScreenPass {
   RenderTexture far_texture_;
   RenderTexture depth_, ao_;  // depth and AO of every fourth pixel
   FrameCasters casters_;
+  std::optional<BodyWatch> body_watch_;
+  struct {
+    ScreenStage stage;
+    GLint question = -1, count = -1, spheres = -1, light = -1;
+  } body_stage_;
 };
 
 }  // namespace nook::gl
