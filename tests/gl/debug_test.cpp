@@ -352,7 +352,8 @@ TEST_CASE("debug: depth that is reversed without its projection is logged as rev
     CHECK((reports(camera, false) == Counts{0, 0}));
   }
   // As glDepthRange(1, 0) writes it.
-  CHECK((reports(plain_camera(float(wide) / high), true) == Counts{1, 1}));
+  // OpenGL ES cannot count the pixels that would fit, so there the message is about the radius.
+  CHECK((reports(plain_camera(float(wide) / high), true) == Counts{context.is_es() ? 0 : 1, 1}));
 }
 
 TEST_CASE("debug: AO is the same with it, also of two eyes and of samples") {

@@ -16,8 +16,8 @@ void log_pose(const Context& context, const char* subject, const CharacterModel&
               const PoseNotes& notes, std::atomic<std::uint32_t>& reported);
 // For each instance whose pose is on the GPU, logs once that the instance does not darken the world.
 void log_without_world_casters(const Context& context, Scene& scene);
-// Logs faults of bodies, each once per instance. A body may be mostly below its ground or far above it, far
-// larger than in the rest pose, inside an occluder, or at the same place as another body that darkens it. If
+// Logs faults of bodies, each once per instance. A body may be mostly below its ground, or far above it. It
+// may be far larger than in the rest pose, inside an occluder, or at the place of a body that darkens it. If
 // the maximum distance of links is too short for all bodies, logs this once for the scene. Call it after each
 // update. Each call checks only the next few instances, so its cost does not depend on the size of the crowd.
 void log_bodies(nook_scene_s& scene);

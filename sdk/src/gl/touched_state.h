@@ -11,9 +11,10 @@ namespace nook::gl {
 // A user is a part of Nook that changes OpenGL state. Each item of state has a mask of its users. Characters
 // have one user for each tier. Uploads have one user for each kind: probes and materials, grids, clips,
 // captures of probes, and the binding of uploads. The screen-space pass has several users: the pass itself,
-// the code that reads its timers, a network in a compute shader, passes with nook_nnao_desc.views, passes
-// with nook_nnao_desc.depth_samples, and passes with both. Two more users write AO to the host's buffers and
-// textures, and record frames. The last user uploads tables of texels, which are 2D textures on OpenGL ES.
+// the code that reads its timers, and a network in a compute shader. Passes with nook_nnao_desc.views, with
+// nook_nnao_desc.depth_samples, or with both are users, too. Two more users write AO to the host's buffers
+// and textures, and record frames. The last user uploads tables of texels, which are 2D textures on OpenGL
+// ES.
 enum : unsigned {
   tier_33 = 1,
   tier_43 = 2,

@@ -18,8 +18,9 @@ bool SurfaceWatch::asks(int question) const {
     case NOOK_WATCH_NEAR_ENOUGH:
       return has_radius_ && frame_.radius_kind != NOOK_NNAO_RADIUS_SCREEN;
     case NOOK_WATCH_REVERSED:
+      // OpenGL ES only tells whether the radius would fit any pixel, which may be an edge.
       return has_radius_ && frame_.radius_kind != NOOK_NNAO_RADIUS_SCREEN &&
-             frame_.depth_kind == NOOK_DEPTH_HARDWARE;
+             frame_.depth_kind == NOOK_DEPTH_HARDWARE && target_ == GL_SAMPLES_PASSED;
     default:
       return true;
   }
@@ -93,8 +94,7 @@ void SurfaceWatch::judge(const Device& device) {
   }
 }
 
-// True if the radius would fit most surfaces with reversed depth. OpenGL ES only tells whether it would fit
-// any.
+// True if the radius would fit most surfaces with reversed depth.
 bool SurfaceWatch::looks_reversed(std::uint64_t seen) const {
   return asks(NOOK_WATCH_REVERSED) && 2 * std::uint64_t{queries_[NOOK_WATCH_REVERSED].pixels} >= seen;
 }
