@@ -18,12 +18,15 @@ struct NookRecord {
   uint light;         // index of the light, whose layout is in light_layout.h; 0: no light
   uint first_caster, caster_count;
   uint first_exact, exact_count;
+  float hidden;       // share of the AO that is hidden while the instance fades in
 };
 
 NookRecord nook_read_record(uint instance) {
   uint first = uint(NOOK_RECORD_UVEC4S) * instance;
   uvec4 a = nook_stream[first], b = nook_stream[first + 1u];
-  return NookRecord(a.x, a.y, a.z & NOOK_RECORD_PLACE, (a.z & NOOK_RECORD_SELF) != 0u, a.w, b.x, b.y, b.z, b.w);
+  return NookRecord(a.x, a.y, a.z & NOOK_RECORD_PLACE, (a.z & NOOK_RECORD_SELF) != 0u, a.w, b.x, b.y, b.z,
+                    b.w & NOOK_RECORD_EXACT_COUNT,
+                    float(b.w >> NOOK_RECORD_HIDDEN_SHIFT) / float(NOOK_HIDDEN_STEPS));
 }
 
 vec4 nook_streamed(uint place) { return uintBitsToFloat(nook_stream[place]); }

@@ -78,12 +78,15 @@ void main() {
   }
   uint vertex = record.place * nook_file_vertex_count + file_vertex;
 #if NOOK_OUTPUT == NOOK_OUTPUT_AO
-  nook_ao[vertex] = nook_form(shadow, added, bias);
+  float ao = nook_form(shadow, added, bias);
+  nook_ao[vertex] = ao + record.hidden * (1.0 - ao);
 #elif NOOK_OUTPUT == NOOK_OUTPUT_GREY
   float ao = nook_form(shadow, added, bias);
+  ao += record.hidden * (1.0 - ao);
   for (uint c = 0u; c < 3u; ++c) nook_ao[3u * vertex + c] = ao;
 #else
   vec3 open = nook_combine_light(shadow, added, bias);
+  open += record.hidden * (1.0 - open);
   for (uint c = 0u; c < 3u; ++c) nook_ao[3u * vertex + c] = open[c];
 #endif
 }

@@ -22,6 +22,7 @@ uniform int nook_first_key_point;    // index within the page of the first key p
                                      // instance
 uniform int nook_key_point_count;
 uniform int nook_self;
+uniform float nook_hidden;           // share of the AO that is hidden while the instances fade in
 
 #if NOOK_LIGHT
 out vec3 nook_directional_ao;
@@ -66,9 +67,11 @@ void main() {
   nook_add_four(sum, nook_key_points_1, nook_alpha_1, nook_blend_1, first);
 #endif
 #if NOOK_LIGHT
-  nook_directional_ao = nook_combine_light(sum.shadow, sum.added, bias);
+  vec3 open = nook_combine_light(sum.shadow, sum.added, bias);
+  nook_directional_ao = open + nook_hidden * (1.0 - open);
 #else
-  nook_ao = nook_form(sum.shadow, sum.added, bias);
+  float ao = nook_form(sum.shadow, sum.added, bias);
+  nook_ao = ao + nook_hidden * (1.0 - ao);
 #endif
   gl_Position = vec4(0.0);
 }

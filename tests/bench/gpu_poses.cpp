@@ -5,11 +5,15 @@
 //        nook_gpu_poses_bench table [largest count]. Prints the frame's time and the memory of crowds of 100
 //        instances, of 1,000 and so on, up to 10,000 by default. 100,000 need more spheres than fit into a
 //        storage block of 128 MiB, and end with Nook's message.
+//        nook_gpu_poses_bench churn [instances]. Prints the largest CPU time of each call on the OpenGL thread
+//        while 100 models with ten instances each come and go beside a crowd by clips in streaming mode, and
+//        what a retired slot costs.
 //        nook_gpu_poses_bench pool [largest count]. Prints the same for crowds by clips without neighbours,
 //        where all are without a pool, and where 200 instances are near in a pool.
 #include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_gl_poses.h>
+#include <nook/experimental/nook_streaming.h>
 #include <time.h>
 
 #include <algorithm>
@@ -158,6 +162,9 @@ class Stage {
               need_ok(nook_gl_scene_update(gl_, scene_));
             }};
   }
+  nook_scene scene() const { return scene_; }
+  nook_gl gl() const { return gl_; }
+
   Frame set_clips_alone(nook_clips clips) {
     return {[this](int number) { play(number); }, [this, clips] { set_clips(clips); }};
   }
@@ -348,11 +355,131 @@ void print_pool(const Crowd& crowd, std::uint32_t largest) {
     }
 }
 
+// The CPU times of one kind of call, in seconds.
+class CallTimes {
+ public:
+  template <class Call>
+  void time(const Call& call) {
+    const double begin = cpu_seconds();
+    call();
+    seconds_.push_back(cpu_seconds() - begin);
+  }
+  void print(const char* name) {
+    std::sort(seconds_.begin(), seconds_.end());
+    std::printf("%-30s %8zu   %9.1f   %9.1f   %9.1f\n", name, seconds_.size(),
+                1e6 * seconds_[seconds_.size() / 2], 1e6 * seconds_[seconds_.size() * 99 / 100],
+                1e6 * seconds_.back());
+  }
+
+ private:
+  std::vector<double> seconds_;
+};
+
+// A model with its clips and instances.
+struct Guest {
+  nook_model model = nullptr;
+  nook_clips clips = nullptr;
+  std::vector<nook_instance_id> ids;
+};
+
+void play(nook_scene scene, const Guest& guest, std::uint32_t frame) {
+  std::vector<nook_instance_clip> playing;
+  for (std::size_t i = 0; i < guest.ids.size(); ++i)
+    playing.push_back({guest.ids[i],
+                       0,
+                       {0, NOOK_CLIP_LOOP, 0.016 * frame + 0.1 * double(i)},
+                       {1, 0, 0, -2 * float(i), 0, 1, 0, 0, 0, 0, 1, 0}});
+  need_ok(
+      nook_scene_set_clips(scene, guest.clips, playing.data(), static_cast<std::uint32_t>(playing.size())));
+}
+
+// The files of a model and of its clips.
+struct Files {
+  const std::vector<std::byte>&model, &clips;
+};
+
+void print_churn(const Crowd& crowd, const Files& files, std::uint32_t count) {
+  constexpr std::uint32_t models = 100, instances = 10, staying = 30, frames = 1000, budget_us = 500;
+  Stage stage(crowd.context, crowd.model, crowd.bones, count, 0);
+  const nook_gl_stream_desc desc{sizeof desc, 8, count + models * instances};
+  need_ok(nook_gl_scene_set_streaming(stage.gl(), stage.scene(), &desc));
+  need_ok(nook_gl_scene_prepare(stage.gl(), stage.scene()));
+  const Frame frame = stage.clips_frame(crowd.clips);
+  CallTimes alone, update, prepare, add, remove;
+  const auto run = [&](int number, CallTimes& times) {
+    frame.animate(number);
+    times.time([&] { frame.call(); });
+  };
+  for (int f = 0; f < 3; ++f) frame.animate(f), frame.call();
+  for (int f = 0; f < 50; ++f) run(f, alone);
+  std::vector<Guest> guests;
+  std::uint32_t come = 0;
+  for (std::uint32_t f = 0; f < frames; ++f) {
+    if (f % (frames / models) == 0 && come < models) {
+      Guest& guest = guests.emplace_back();
+      ++come;
+      need_ok(nook_model_load(crowd.context, files.model.data(), files.model.size(), &guest.model));
+      need_ok(
+          nook_clips_load(crowd.context, guest.model, files.clips.data(), files.clips.size(), &guest.clips));
+      add.time([&] {
+        for (std::uint32_t i = 0; i < instances; ++i)
+          need_ok(nook_scene_add_instance(stage.scene(), guest.model, &guest.ids.emplace_back()));
+      });
+    }
+    if (guests.size() > staying) {
+      remove.time([&] {
+        for (const nook_instance_id id : guests.front().ids)
+          need_ok(nook_scene_remove_instance(stage.scene(), id));
+        nook_clips_destroy(&guests.front().clips);
+        nook_model_destroy(&guests.front().model);
+      });
+      guests.erase(guests.begin());
+    }
+    for (const Guest& guest : guests) play(stage.scene(), guest, f);
+    prepare.time(
+        [&] { need_ok(nook_gl_scene_prepare_within(stage.gl(), stage.scene(), budget_us, nullptr)); });
+    run(static_cast<int>(f), update);
+  }
+  std::printf(
+      "%u instances, %u models with %u instances each come and go in %u frames, budget %u µs\n"
+      "                                         CPU time in µs\n"
+      "call                              calls      median   99 of 100     largest\n",
+      count, models, instances, frames, budget_us);
+  prepare.print("nook_gl_scene_prepare_within");
+  alone.print("frame's calls without churn");
+  update.print("frame's calls with churn");
+  add.print("add ten instances");
+  remove.print("remove ten, destroy the model");
+  for (Guest& guest : guests) {
+    nook_clips_destroy(&guest.clips);
+    nook_model_destroy(&guest.model);
+  }
+}
+
+// A slot of the scene is used for 4,096 instances, and then never again.
+void print_retired_slots(const Crowd& crowd) {
+  constexpr std::uint32_t uses = 4096, slots = 64;
+  Stage stage(crowd.context, crowd.model, crowd.bones, 1, 0);
+  const std::uint64_t before = stage.scene_info().memory_bytes;
+  CallTimes pair;
+  pair.time([&] {
+    for (std::uint32_t i = 0; i < uses * slots; ++i) {
+      nook_instance_id id = 0;
+      need_ok(nook_scene_add_instance(stage.scene(), crowd.model, &id));
+      need_ok(nook_scene_remove_instance(stage.scene(), id));
+    }
+  });
+  std::printf("%u instances added and removed one after another retire %u slots: %.0f bytes for each\n",
+              uses * slots, slots, double(stage.scene_info().memory_bytes - before) / slots);
+  pair.print("all of these calls");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   const std::string_view mode = argc > 1 ? argv[1] : "";
-  const bool is_pool = mode == "pool", is_table = mode == "table" || is_pool;
+  const bool is_pool = mode == "pool", is_churn = mode == "churn",
+             is_table = mode == "table" || is_pool || is_churn;
   const char* number = is_table ? (argc > 2 ? argv[2] : "10000") : (argc > 1 ? argv[1] : "10000");
   const auto count = static_cast<std::uint32_t>(std::atoi(number));
   Crowd crowd{};
@@ -365,7 +492,10 @@ int main(int argc, char** argv) {
   need_ok(nook_model_load(crowd.context, bytes.data(), bytes.size(), &crowd.model));
   need_ok(nook_clips_load(crowd.context, crowd.model, clip_bytes.data(), clip_bytes.size(), &crowd.clips));
   crowd.bones = static_cast<std::uint32_t>(character.bone_count());
-  if (is_pool) {
+  if (is_churn) {
+    print_churn(crowd, {bytes, clip_bytes}, count);
+    print_retired_slots(crowd);
+  } else if (is_pool) {
     print_pool(crowd, count);
   } else if (is_table) {
     print_table(crowd, count);

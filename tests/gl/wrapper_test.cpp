@@ -5,6 +5,7 @@
 #include <nook/experimental/nook_gl_poses.hpp>
 #include <nook/experimental/nook_recording.hpp>
 #include <nook/experimental/nook_stages.hpp>
+#include <nook/experimental/nook_streaming.hpp>
 #include <nook/experimental/nook_synthesis.hpp>
 #include <nook/experimental/nook_transfer.hpp>
 #include <nook/experimental/nook_world_sample.hpp>
@@ -122,6 +123,12 @@ TEST_CASE("the C++ wrapper takes poses from the GPU") {
     nook::Scene pooled(host);
     CHECK_THROWS_AS(nook::set_pool(gl, pooled, {0, 4, 10, 1}), nook::Error);
   }
+  nook::Scene streamed(host);
+  const nook_instance_id new_one = streamed.add_instance(model);
+  nook::set_streaming(gl, streamed, {0, 0, 1});
+  while (nook::prepare_within(gl, streamed, 100).pending_count > 0) gl.update(streamed);
+  gl.update(streamed);
+  CHECK(nook::read_pool(gl, streamed, {new_one})[0].is_near == 1);
   context.gl().DeleteBuffers(1, &buffer);
 }
 

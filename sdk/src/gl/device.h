@@ -36,6 +36,18 @@ struct Device {
   void report_host_errors() const;
   // Throws Failure if OpenGL has reported an error. `what` is the action that failed, for the message.
   void check(const char* what) const;
+  // While an object of this type exists, the two functions above do nothing unless `debug` is set, because
+  // querying an error may wait for the driver.
+  class Unchecked {
+   public:
+    explicit Unchecked(Device& device) : device_(device) { ++device_.unchecked_; }
+    ~Unchecked() { --device_.unchecked_; }
+    Unchecked(const Unchecked&) = delete;
+    Unchecked& operator=(const Unchecked&) = delete;
+
+   private:
+    Device& device_;
+  };
   // Throws Failure if the OpenGL context was lost. Also calls need_current.
   void need_alive() const;
   // If nook_gl_desc.debug is set, throws Failure unless the OpenGL context that was current in nook_gl_create
@@ -87,6 +99,7 @@ struct Device {
   Vector<Removed> removed_;  // has reserved memory for all adopted objects
   std::size_t object_count_ = 0;
   int calls_ = 0;  // number of calls that hold a StateGuard
+  int unchecked_ = 0;
 
   // A vertex array that stores a unique number. Contexts do not share vertex arrays, so the number identifies
   // this context.

@@ -1,6 +1,7 @@
 #include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_debug.h>
 #include <nook/experimental/nook_gl_poses.h>
+#include <nook/experimental/nook_streaming.h>
 #include <nook/nook_gl.h>
 
 #include "tests/abi/layout/layout.h"
@@ -89,6 +90,16 @@ NOOK_AT(nook_gl_pool_table, struct_size, 0);
 NOOK_AT(nook_gl_pool_table, buffer, 4);
 NOOK_AT(nook_gl_pool_table, entry_count, 8);
 NOOK_AT(nook_gl_pool_table, ao_buffer_count, 12);
+
+NOOK_SIZE(nook_gl_stream_desc, 12);
+NOOK_AT(nook_gl_stream_desc, struct_size, 0);
+NOOK_AT(nook_gl_stream_desc, fade_updates, 4);
+NOOK_AT(nook_gl_stream_desc, instance_count, 8);
+
+NOOK_SIZE(nook_gl_stream_info, 12);
+NOOK_AT(nook_gl_stream_info, struct_size, 0);
+NOOK_AT(nook_gl_stream_info, pending_count, 4);
+NOOK_AT(nook_gl_stream_info, generation, 8);
 
 NOOK_SIZE(nook_gl_memory, 32);
 NOOK_AT(nook_gl_memory, struct_size, 0);

@@ -5,6 +5,7 @@
 #include <nook/experimental/nook_capture.h>
 #include <nook/experimental/nook_clip_crowds.h>
 #include <nook/experimental/nook_gl_poses.h>
+#include <nook/experimental/nook_streaming.h>
 #include <nook/experimental/nook_synthesis.h>
 #include <nook/experimental/nook_transfer.h>
 #include <nook/experimental/nook_world_sample.h>

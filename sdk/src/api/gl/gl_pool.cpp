@@ -15,8 +15,8 @@ nook_gl_pool_view view_of(const gl::PooledView& view) {
           view.is_near ? 1u : 0u};
 }
 
-void need_pool(const Scene& scene) {
-  if (!scene.pool.is_used())
+void need_pool(const Scene& scene, bool has_views = false) {
+  if (!scene.pool.is_used() && !has_views)
     throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                   "the scene has no pool; call nook_gl_scene_set_pool first, or nook_gl_scene_view");
 }
@@ -39,6 +39,11 @@ nook_result nook_gl_scene_set_pool(nook_gl gl, nook_scene scene, const nook_gl_p
       throw Failure(NOOK_ERROR_UNSUPPORTED,
                     "a pool needs compute shaders (OpenGL 4.3 or OpenGL ES 3.1), which this context does not "
                     "have; use a scene without a pool");
+    if (gl->characters->is_streaming(scene->scene))
+      throw Failure(
+          NOOK_ERROR_UNSUPPORTED,
+          "the scene is in streaming mode (nook_gl_scene_set_streaming), which needs a scene without "
+          "a pool; use one of them");
     set_pool(scene->scene, desc->places, desc->distance, desc->instance_count);
   });
 }
@@ -46,7 +51,7 @@ nook_result nook_gl_scene_set_pool(nook_gl gl, nook_scene scene, const nook_gl_p
 nook_result nook_gl_scene_read_pool(nook_gl gl, nook_scene scene, const nook_instance_id* instances,
                                     uint32_t count, nook_gl_pool_view* views, nook_gl_pool_info* info) {
   return api::with_gl_scene("nook_gl_scene_read_pool", gl, scene, [&] {
-    need_pool(scene->scene);
+    need_pool(scene->scene, gl->characters->is_streaming(scene->scene));
     if (count > 0) {
       need(instances, "instances");
       need(views, "views");

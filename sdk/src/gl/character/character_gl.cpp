@@ -13,7 +13,9 @@ CharacterGl::CharacterGl(Device& device) : scenes_(device.memory), output_(devic
     tier_ = &storage_.emplace<FeedbackTier>(device);
 }
 
-void CharacterGl::prepare(const SceneHandle& handle) {
+// Makes or releases what the tier needs on the CPU, and calls `prepare_on_gpu` in between.
+template <class PrepareOnGpu>
+void CharacterGl::prepare_by(const SceneHandle& handle, const PrepareOnGpu& prepare_on_gpu) {
   release_destroyed();
   const auto known = [&](const SceneHandle& of) { return of.scene == handle.scene; };
   if (std::none_of(scenes_.begin(), scenes_.end(), known)) scenes_.push_back(handle);
@@ -24,19 +26,39 @@ void CharacterGl::prepare(const SceneHandle& handle) {
     make_arrays(*handle.scene);
   }
   reserve_parts(*handle.scene);
-  tier_->prepare(*handle.scene);
+  prepare_on_gpu();
   // The arrays are released only after the preparation has succeeded. If it fails, the host can still update
   // on the CPU without an allocation.
   if (computes && handle.scene->has_arrays) leave_arrays(*handle.scene);
 }
 
+void CharacterGl::prepare(const SceneHandle& handle) {
+  prepare_by(handle, [&] { tier_->prepare(*handle.scene); });
+}
+
+void CharacterGl::prepare_unless_streaming(const SceneHandle& handle) {
+  prepare_by(handle, [&] {
+    if (!tier_->is_streaming(*handle.scene)) tier_->prepare(*handle.scene);
+  });
+}
+
+void CharacterGl::set_streaming(const SceneHandle& handle, std::uint32_t fade_updates) {
+  prepare_by(handle, [&] { tier_->set_streaming(*handle.scene, fade_updates); });
+}
+
+std::uint32_t CharacterGl::prepare_within(const SceneHandle& handle, const Budget& budget) {
+  std::uint32_t pending = 0;
+  prepare_by(handle, [&] { pending = tier_->prepare_within(*handle.scene, budget); });
+  return pending;
+}
+
 void CharacterGl::update(const SceneHandle& handle) {
-  prepare(handle);
+  prepare_unless_streaming(handle);
   tier_->update(*handle.scene);
 }
 
 void CharacterGl::set_poses(const SceneHandle& handle, const PoseBatch& batch) {
-  prepare(handle);
+  prepare_unless_streaming(handle);
   tier_->set_poses(*handle.scene, batch);
 }
 

@@ -30,6 +30,10 @@ class CharacterGl {
 
   void prepare(const SceneHandle& handle);
   void update(const SceneHandle& handle);
+  void set_streaming(const SceneHandle& handle, std::uint32_t fade_updates);
+  bool is_streaming(const Scene& scene) const { return tier_->is_streaming(scene); }
+  // Returns how many instances are still pending.
+  std::uint32_t prepare_within(const SceneHandle& handle, const Budget& budget);
   void set_poses(const SceneHandle& handle, const PoseBatch& batch);
   void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const;
   VertexValues place(const Scene& scene, nook_instance_id instance) const;
@@ -52,6 +56,10 @@ class CharacterGl {
   void release_destroyed();
 
  private:
+  template <class PrepareOnGpu>
+  void prepare_by(const SceneHandle& handle, const PrepareOnGpu& prepare_on_gpu);
+  void prepare_unless_streaming(const SceneHandle& handle);
+
   List<SceneHandle> scenes_;
   std::variant<std::monostate, FeedbackTier, ComputeTier> storage_;
   Tier* tier_;  // points into storage_

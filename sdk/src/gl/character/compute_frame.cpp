@@ -34,7 +34,8 @@ void for_selected(const Scene& scene, const ComputeChunk& chunk, Visit&& visit) 
         visit(slot);
   for (std::uint32_t place = 0; place < chunk.capacity; ++place) {
     const std::uint32_t slot = chunk.slots[place];
-    if (slot == ComputeChunk::empty || scene.instances[slot].plan.due) continue;
+    if (slot == ComputeChunk::empty) continue;
+    if (scene.instances[slot].plan.due || scene.instances[slot].plan.is_far) continue;
     if (chunk.transformed[place] != pose_of(scene.instances[slot])) visit(slot);
   }
 }
@@ -153,7 +154,7 @@ void write_casters(const ComputeScene& placed, const Instance& instance, Word4* 
     piece[next++] = {level.spheres, 0, 0, 0};
   }
   record.first_exact = next;
-  record.exact_count = free_sphere_count(instance);
+  record.exact_count = free_sphere_count(instance) | record.exact_count;
   if (instance.plan.ground_sphere.radius > 0)
     piece[next++] = exact_sphere(instance, instance.plan.ground_sphere);
   for (const std::uint32_t slot : instance.plan.occluders)
@@ -174,6 +175,7 @@ void write_chunk(const ComputeScene& placed, const ComputeChunk& chunk, Word4* p
                    (instance.input.is_posed_on_gpu ? NOOK_RECORD_POSED : 0u);
     if (instance.input.clip.is_late)
       record.place |= placed.number_of_clips(instance) << NOOK_RECORD_CLIPS_SHIFT;
+    record.exact_count = placed.hidden_steps(slot) << NOOK_RECORD_HIDDEN_SHIFT;
     if (instance.plan.due) {
       write_casters(placed, instance, piece, next_caster, record);
       if (instance.light().count > 0) {

@@ -1,5 +1,6 @@
 // The part of the compute tier that converts poses from the host's buffer.
 #include <cstring>
+#include <optional>
 
 #include "sdk/src/character/scene_clips.h"
 #include "sdk/src/character/scene_pool.h"
@@ -67,6 +68,10 @@ void check_poses(const Scene& scene, ComputeScene& placed, const PoseBatch& batc
   if (batch.source.is_partial)
     need_no_pool(scene,
                  "poses with NOOK_POSE_FLAG_PARTIAL need the other bones of far instances; set all bones");
+  if (batch.source.is_partial && placed.streaming.is_used)
+    throw Failure(NOOK_ERROR_UNSUPPORTED,
+                  "the scene is in streaming mode (nook_gl_scene_set_streaming), but poses with "
+                  "NOOK_POSE_FLAG_PARTIAL need the other bones of pending instances; set all bones");
   ++placed.pose_calls;
   const Instance& first = instance_of(scene, batch.instances[0].instance);
   for (std::size_t i = 0; i < batch.instances.size(); ++i) {
@@ -210,10 +215,16 @@ void take_poses(Scene& scene, ComputeScene& placed, const PoseBatch& batch) noex
 
 }  // namespace
 
+void ComputeTier::make_pose_programs() {
+  if (!convert_poses_.name()) convert_poses_ = compute_program(device_, "character/pose_convert.comp", "");
+  if (!place_poses_.name()) place_poses_ = compute_program(device_, "character/pose_place.comp", "");
+}
+
 // Creates the programs and buffers that do not exist yet. Throws Failure if this is not possible.
 void ComputeTier::make_pose_objects(ComputeScene& placed) {
-  // In a pool, instances move between chunks, so every chunk gets its buffer now.
-  const bool has_pool = placed.scene->pool.is_used();
+  // In a pool, instances move between chunks, and in streaming mode, chunks are added. So every chunk gets
+  // its buffer now.
+  const bool has_pool = placed.scene->pool.is_used() || placed.streaming.is_used;
   const auto is_missing = [&](const ComputeChunk& chunk) {
     return (chunk.poses.count || has_pool) && !chunk.posed.name();
   };
@@ -221,8 +232,7 @@ void ComputeTier::make_pose_objects(ComputeScene& placed) {
       std::none_of(placed.chunks.begin(), placed.chunks.end(), is_missing))
     return;
   device_.report_host_errors();
-  if (!convert_poses_.name()) convert_poses_ = compute_program(device_, "character/pose_convert.comp", "");
-  if (!place_poses_.name()) place_poses_ = compute_program(device_, "character/pose_place.comp", "");
+  make_pose_programs();
   if (!placed.jobs.name())
     placed.jobs = Buffer(device_, "nook: jobs of poses", 4096, nullptr, GL_STREAM_DRAW);
   for (ComputeChunk& chunk : placed.chunks)
@@ -233,6 +243,11 @@ void ComputeTier::make_pose_objects(ComputeScene& placed) {
 
 void ComputeTier::set_poses(Scene& scene, const PoseBatch& batch) {
   ComputeScene& placed = *placed_scene(scenes_, scene);
+  std::optional<Device::Unchecked> unchecked;
+  if (placed.streaming.is_used) {
+    unchecked.emplace(device_);
+    placed.follow_edits(device_);
+  }
   const PoseWindows windows(device_, batch);
   check_poses(scene, placed, batch);
   assign_places(scene, placed, batch);

@@ -8,52 +8,107 @@
 namespace nook::gl {
 namespace {
 
-using Words = Vector<std::uint32_t>;
-using Floats = Vector<float>;
+// Writes numbers of a table one after another.
+class Writer {
+ public:
+  explicit Writer(std::byte* out) : out_(out) {}
+  void put(float number) { copy(&number, sizeof number); }
+  void put(std::uint32_t number) { copy(&number, sizeof number); }
+  void put(Vec3 v, float w) {
+    for (const float number : {v.x, v.y, v.z, w}) put(number);
+  }
 
-void append(Floats& out, Vec3 v, float w) {
-  out.insert(out.end(), {v.x, v.y, v.z, w});
+ private:
+  void copy(const void* from, std::size_t bytes) {
+    std::memcpy(out_, from, bytes);
+    out_ += bytes;
+  }
+  std::byte* out_;
+};
+
+// The tables of a model contain the elements of all levels, one level after another.
+
+void write_sphere(Writer& out, const ProxySphere& sphere) {
+  out.put(sphere.centre, sphere.radius);
+  out.put({static_cast<float>(sphere.bone), sphere.caster_weight, 0}, 0);
 }
 
-void append_spheres(Floats& out, const Vector<ProxySphere>& spheres) {
-  for (const ProxySphere& sphere : spheres) {
-    append(out, sphere.centre, sphere.radius);
-    append(out, {static_cast<float>(sphere.bone), sphere.caster_weight, 0}, 0);
+// Writes spheres in the layout of spheres.comp.
+void write_spheres(const ComputeModel& sizes, std::uint32_t first, std::uint32_t count, Writer out) {
+  const CharacterModel& model = sizes.model->model;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    std::uint32_t l = sizes.level_count() - 1;
+    while (i < sizes.levels[l].first_sphere) --l;
+    const std::uint32_t in_level = i - sizes.levels[l].first_sphere;
+    write_sphere(out, l == 0 ? model.spheres[in_level] : model.levels[l - 1].spheres[in_level]);
   }
 }
 
-// Packs the spheres of all levels, one level after another, in the layout of spheres.comp.
-Floats pack_spheres(const CharacterModel& model, Memory* memory) {
-  Floats out(memory);
-  append_spheres(out, model.spheres);
-  for (const CharacterLevel& level : model.levels) append_spheres(out, level.spheres);
-  return out;
+void write_key_point(Writer& out, const KeyPoint& point) {
+  out.put(point.position, point.saturation);
+  for (const Vec3 v : {point.normal, point.surface_position, point.surface_normal}) out.put(v, 0);
+  for (const std::uint16_t bone : point.bone) out.put(static_cast<float>(bone));
+  for (const float weight : point.weight) out.put(weight);
 }
 
-void append_key_point(Floats& out, const KeyPoint& point) {
-  append(out, point.position, point.saturation);
-  for (const Vec3 v : {point.normal, point.surface_position, point.surface_normal}) append(out, v, 0);
-  for (const std::uint16_t bone : point.bone) out.push_back(bone);
-  for (const float weight : point.weight) out.push_back(weight);
+// Writes key points in the layout of shadows.comp.
+void write_key_points(const ComputeModel& sizes, std::uint32_t first, std::uint32_t count, Writer out) {
+  const CharacterModel& model = sizes.model->model;
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    std::uint32_t l = sizes.level_count() - 1;
+    while (i < sizes.levels[l].first_key_point) --l;
+    const std::uint32_t in_level = i - sizes.levels[l].first_key_point;
+    write_key_point(out, model.key_points[l == 0 ? in_level : model.levels[l - 1].evaluated[in_level]]);
+  }
 }
 
-// Packs the key points of all levels, one level after another, in the layout of shadows.comp.
-Floats pack_key_points(const CharacterModel& model, Memory* memory) {
-  Floats out(memory);
-  for (const KeyPoint& point : model.key_points) append_key_point(out, point);
-  for (const CharacterLevel& level : model.levels)
-    for (const std::uint16_t k : level.evaluated) append_key_point(out, model.key_points[k]);
-  return out;
+// Writes the key points of coarser levels in the layout of spread.comp.
+void write_spread(const ComputeModel& sizes, std::uint32_t first, std::uint32_t count, Writer out) {
+  for (std::uint32_t i = first; i < first + count; ++i) {
+    const CharacterLevel& level = sizes.model->model.levels[i / sizes.key_points()];
+    const std::uint32_t k = i % sizes.key_points();
+    out.put(std::uint32_t{level.source[k]});
+    out.put(level.scale[k]);
+    out.put(level.offset[k]);
+  }
 }
 
-// Packs the coarser levels, one after another, in the layout of spread.comp.
-Words pack_spread(const CharacterModel& model, Memory* memory) {
-  Words out(memory);
-  for (const CharacterLevel& level : model.levels)
-    for (std::size_t k = 0; k < model.key_points.size(); ++k)
-      out.insert(out.end(), {level.source[k], bit_cast<std::uint32_t>(level.scale[k]),
-                             bit_cast<std::uint32_t>(level.offset[k])});
-  return out;
+// Writes a part of a row of the linear layer: the row's number for the vertices from `v` on. The rows are in
+// the layout of vertices.comp.
+void write_linear_row(const ComputeModel& sizes, std::uint32_t row, std::uint32_t v, std::uint32_t count,
+                      Writer& out) {
+  const CharacterModel& model = sizes.model->model;
+  const std::uint32_t pairs = sizes.influence_pairs(), influences = model.influences;
+  const auto each = [&](const auto& number) {
+    for (std::uint32_t i = v; i < v + count; ++i) out.put(number(std::size_t{i} * influences));
+  };
+  if (row == 0) {
+    for (std::uint32_t i = v; i < v + count; ++i) out.put(model.bias[i]);
+  } else if (row <= pairs) {
+    const std::uint32_t e = 2 * (row - 1);
+    each([&](std::size_t entry) {
+      const std::uint32_t second = e + 1 < influences ? model.influence[entry + e + 1] : 0u;
+      return std::uint32_t{model.influence[entry + e]} | second << 16;
+    });
+  } else {
+    const bool is_alpha = row <= 3 * pairs;
+    const std::uint32_t e = row - 1 - (is_alpha ? pairs : 3 * pairs);
+    const auto& numbers = is_alpha ? model.alpha : model.blend;
+    each([&](std::size_t entry) { return e < influences ? numbers[entry + e] : 0.0f; });
+  }
+}
+
+// Writes words of the linear layer: the welded vertex of each file vertex, then the rows.
+void write_linear(const ComputeModel& sizes, std::uint32_t first, std::uint32_t count, Writer out) {
+  const std::uint32_t file = sizes.file_vertices(), vertices = sizes.vertices();
+  std::uint32_t at = first;
+  for (; at < std::min(file, first + count); ++at) out.put(sizes.model->model.file_to_welded[at]);
+  while (at < first + count) {
+    const std::uint32_t row = (at - file) / vertices, v = (at - file) % vertices;
+    const std::uint32_t part = std::min(vertices - v, first + count - at);
+    write_linear_row(sizes, row, v, part, out);
+    at += part;
+  }
 }
 
 std::array<LevelRange, CharacterModel::max_levels + 1> ranges_of(const CharacterModel& model) {
@@ -66,25 +121,6 @@ std::array<LevelRange, CharacterModel::max_levels + 1> ranges_of(const Character
                      ranges[l].first_key_point + ranges[l].key_points,
                      static_cast<std::uint32_t>(model.levels[l].evaluated.size())};
   return ranges;
-}
-
-// Packs the linear layer in the layout of vertices.comp.
-Words pack_linear(const ComputeModel& sizes, Memory* memory) {
-  const CharacterModel& model = sizes.model->model;
-  const std::size_t vertices = sizes.vertices(), pairs = sizes.influence_pairs();
-  Words out(sizes.file_vertices() + vertices * (1 + 5 * pairs), 0, memory);
-  std::memcpy(out.data(), model.file_to_welded.data(), sizes.file_vertices() * sizeof(std::uint32_t));
-  std::uint32_t* const per_vertex = out.data() + sizes.file_vertices();
-  for (std::size_t v = 0; v < vertices; ++v) {
-    per_vertex[v] = bit_cast<std::uint32_t>(model.bias[v]);
-    for (std::size_t e = 0; e < model.influences; ++e) {
-      const std::size_t entry = v * model.influences + e;
-      per_vertex[(1 + e / 2) * vertices + v] |= std::uint32_t{model.influence[entry]} << (16 * (e % 2));
-      per_vertex[(1 + pairs + e) * vertices + v] = bit_cast<std::uint32_t>(model.alpha[entry]);
-      per_vertex[(1 + 3 * pairs + e) * vertices + v] = bit_cast<std::uint32_t>(model.blend[entry]);
-    }
-  }
-  return out;
 }
 
 }  // namespace
@@ -101,14 +137,44 @@ std::uint64_t ComputeModel::largest_share() const {
                    (std::uint64_t{bone_uvec4s()} + NOOK_RECORD_UVEC4S) * 4 * sizeof(std::uint32_t)});
 }
 
-ComputeModel::ComputeModel(Device& device, Ref<const LoadedModel> loaded)
-    : ModelData(std::move(loaded)), levels(ranges_of(model->model)) {
-  Memory* const memory = device.memory;
-  const CharacterModel& m = model->model;
-  spheres_rest = static_buffer(device, "nook: rest spheres", pack_spheres(m, memory));
-  key_points_rest = static_buffer(device, "nook: rest key points", pack_key_points(m, memory));
-  linear = static_buffer(device, "nook: linear layer", pack_linear(*this, memory));
-  if (level_count() > 1) spread = static_buffer(device, "nook: levels", pack_spread(m, memory));
+ComputeModel::ComputeModel(Ref<const LoadedModel> loaded)
+    : ModelData(std::move(loaded)), levels(ranges_of(model->model)) {}
+
+void ComputeModel::upload_piece(Device& device) {
+  if (!is_uploaded() && upload_table(device)) ++uploaded_;
+}
+
+// Returns whether the table is complete.
+bool ComputeModel::upload_table(Device& device) {
+  constexpr std::uint32_t word = sizeof(std::uint32_t), vec4 = 4 * word;
+  const LevelRange& last = levels[level_count() - 1];
+  const auto writer = [this](auto write) {
+    return [this, write](std::uint32_t first, std::uint32_t count, std::byte* out) {
+      write(*this, first, count, Writer(out));
+    };
+  };
+  switch (uploaded_) {
+    case 0:
+      return upload_.send(device, spheres_rest,
+                          {"nook: rest spheres", spheres(), NOOK_REST_SPHERE_VEC4S * vec4},
+                          writer(write_spheres));
+    case 1:
+      return upload_.send(device, key_points_rest,
+                          {"nook: rest key points", std::uint64_t{last.first_key_point} + last.key_points,
+                           NOOK_KEY_POINT_VEC4S * vec4},
+                          writer(write_key_points));
+    case 2:
+      return upload_.send(device, linear,
+                          {"nook: linear layer",
+                           file_vertices() + vertices() * (1 + std::uint64_t{5} * influence_pairs()), word},
+                          writer(write_linear));
+    default:
+      if (level_count() == 1) return true;
+      return upload_.send(
+          device, spread,
+          {"nook: levels", (level_count() - 1) * std::uint64_t{key_points()}, NOOK_SPREAD_WORDS * word},
+          writer(write_spread));
+  }
 }
 
 ModelMemory compute_memory(const LoadedModel& loaded) {
@@ -154,6 +220,24 @@ void ComputeScene::make_buffers(Device& device) {
   make_pool(device);
 }
 
+namespace {
+
+constexpr std::uint64_t sphere_size = NOOK_SPHERE_VEC4S * 4 * sizeof(float);
+
+// Returns the size of a buffer of spheres. Throws Failure if the buffer is too large to be bound by this
+// OpenGL.
+std::uint64_t sphere_bytes(const Device& device, std::uint64_t count) {
+  if (count * sphere_size > device.max_piece_bytes)
+    throw Failure(
+        NOOK_ERROR_UNSUPPORTED,
+        "the scene has %llu proxy spheres, but this OpenGL allows %llu; remove instances or use two scenes",
+        static_cast<unsigned long long>(count),
+        static_cast<unsigned long long>(device.max_piece_bytes / sphere_size));
+  return count * sphere_size;
+}
+
+}  // namespace
+
 // One buffer holds the world-space spheres of all chunks, because any instance may be a caster of any other
 // instance.
 void ComputeScene::make_sphere_buffers(Device& device) {
@@ -162,20 +246,42 @@ void ComputeScene::make_sphere_buffers(Device& device) {
   for (ComputeChunk& chunk : chunks) {
     moved |= chunk.first_sphere != count;
     chunk.first_sphere = static_cast<std::uint32_t>(count);
-    count += std::uint64_t{chunk.capacity} * chunk.model->spheres();
+    count += chunk.spheres();
   }
-  constexpr std::uint64_t bytes_each = NOOK_SPHERE_VEC4S * 4 * sizeof(float);
-  if (count * bytes_each > device.max_piece_bytes)
-    throw Failure(
-        NOOK_ERROR_UNSUPPORTED,
-        "the scene has %llu proxy spheres, but this OpenGL allows %llu; remove instances or use two scenes",
-        static_cast<unsigned long long>(count),
-        static_cast<unsigned long long>(device.max_piece_bytes / bytes_each));
-  const bool grown = count * bytes_each > spheres.bytes();
-  if (grown) spheres = Buffer(device, "nook: spheres", count * bytes_each, nullptr, GL_DYNAMIC_COPY);
+  const std::uint64_t bytes = sphere_bytes(device, count);
+  const bool grown = bytes > spheres.bytes();
+  if (grown) spheres = Buffer(device, "nook: spheres", bytes, nullptr, GL_DYNAMIC_COPY);
   if (grown || moved)
     for (ComputeChunk& chunk : chunks)
       std::fill(chunk.transformed.begin(), chunk.transformed.end(), ComputeChunk::Pose{});
+}
+
+ComputeChunk& ComputeScene::add_chunk(Device& device, ComputeModel& model, std::uint32_t instance_capacity) {
+  const std::uint64_t count = std::uint64_t{instance_capacity} * model.spheres();
+  std::uint64_t first = 0;
+  auto at = chunks.begin();
+  for (; at != chunks.end() && at->first_sphere - first < count; ++at)
+    first = at->first_sphere + at->spheres();
+  grow_spheres(device, first + count);
+  ComputeChunk& made = *chunks.emplace(at, device, model, instance_capacity);
+  made.first_sphere = static_cast<std::uint32_t>(first);
+  return made;
+}
+
+// Copies the spheres on the GPU, so that the next update need not compute all of them again.
+void ComputeScene::grow_spheres(Device& device, std::uint64_t count) {
+  const std::uint64_t bytes = sphere_bytes(device, count);
+  if (bytes <= spheres.bytes()) return;
+  const std::uint64_t kept = spheres.bytes();
+  Buffer grown(device, "nook: spheres",
+               std::max(bytes, std::min(kept + kept / 2, device.max_piece_bytes / sphere_size * sphere_size)),
+               nullptr, GL_DYNAMIC_COPY);
+  if (kept > 0) {
+    device.gl.BindBuffer(GL_SHADER_STORAGE_BUFFER, spheres.name());
+    device.gl.CopyBufferSubData(GL_SHADER_STORAGE_BUFFER, GL_ARRAY_BUFFER, 0, 0,
+                                static_cast<GLsizeiptr>(kept));
+  }
+  spheres = std::move(grown);
 }
 
 void ComputeScene::make_light_buffers(Device& device) {
@@ -188,6 +294,43 @@ void ComputeScene::make_light_buffers(Device& device) {
                nullptr, GL_DYNAMIC_COPY);
     chunk.make_directional_ao(device);
   }
+}
+
+void ComputeScene::follow_edits(Device& device) {
+  if (!outdated()) return;
+  notice_edits(device);
+  finish();
+}
+
+void ComputeScene::place_within(Device& device, List<ComputeModel>& models, const Budget& budget) {
+  const auto make_chunk = [&](ComputeModel& model, std::uint32_t capacity_wanted) -> ComputeChunk& {
+    return add_chunk(device, model, capacity_wanted);
+  };
+  while (place_next(device, models, make_chunk) && budget.is_left()) {
+  }
+}
+
+std::uint32_t ComputeScene::count_pending() const {
+  const bool has_all =
+      std::all_of(clips.begin(), clips.end(), [](const PlacedClips& c) { return c.is_uploaded; });
+  if (has_all) return streaming.pending;
+  std::uint32_t count = 0;
+  for (std::uint32_t slot = 0; slot < placements.size(); ++slot)
+    count += placements[slot].id && !has_data(slot);
+  return count;
+}
+
+bool ComputeScene::has_data(std::uint32_t slot) const {
+  const Instance& instance = scene->instances[slot];
+  return placements[slot].chunk && (!instance.input.clip.is_late || number_of_clips(instance) > 0);
+}
+
+bool ComputeScene::is_ready(std::uint32_t slot) const {
+  const Placement<ComputeChunk>& placement = placements[slot];
+  const Instance& instance = scene->instances[slot];
+  const bool is_lost = instance.input.is_posed_on_gpu && placement.chunk &&
+                       placement.chunk->posed_of[placement.place] != pose_of(instance);
+  return !is_lost && has_data(slot);
 }
 
 }  // namespace nook::gl

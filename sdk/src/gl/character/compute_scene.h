@@ -21,8 +21,11 @@ struct LevelRange {
 
 // The tables of clips that clip_bones.comp reads, uploaded once.
 struct PlacedClips {
+  PlacedClips(Ref<const LoadedClips> loaded, std::uint32_t number_in_model)
+      : clips(std::move(loaded)), number(number_in_model) {}
+
   // Throws Failure, with UNSUPPORTED if the tables are too large to be bound by this OpenGL.
-  PlacedClips(Device& device, Ref<const LoadedClips> loaded, std::uint32_t number_in_model);
+  void upload_piece(Device& device);
 
   std::uint32_t first_weight() const;  // words
   std::uint32_t first_mode() const;
@@ -30,13 +33,18 @@ struct PlacedClips {
   Ref<const LoadedClips> clips;
   std::uint32_t number;  // identifies the clips among the clips of its model; starts at 1; the records of
                          // instances contain it
-  bool is_used = false;  // true if an instance of the scene used the clips in the last place_clips
+  bool is_used = false;  // true if an instance of the scene used the clips in the last find_clips
+  bool is_uploaded = false;
   Buffer table;
+  TableUpload upload;
 };
 
 struct ComputeModel : ModelData {
+  explicit ComputeModel(Ref<const LoadedModel> loaded);
+
+  bool is_uploaded() const { return uploaded_ == table_count; }
   // Throws Failure, with UNSUPPORTED if the model exceeds the limits of this OpenGL.
-  ComputeModel(Device& device, Ref<const LoadedModel> loaded);
+  void upload_piece(Device& device);
 
   std::uint32_t level_count() const { return static_cast<std::uint32_t>(model->model.levels.size()) + 1; }
   // Returns the level, or the coarsest one if the model has fewer levels.
@@ -62,7 +70,13 @@ struct ComputeModel : ModelData {
   Buffer key_points_rest;
   Buffer linear;
   Buffer spread;   // table for spread.comp; only for models with several levels
-  Buffer open_ao;  // the AO that far instances show, 1 at each vertex; only in a pool
+  Buffer open_ao;  // the AO that far and pending instances show, 1 at each vertex
+
+ private:
+  static constexpr std::uint32_t table_count = 4;
+  bool upload_table(Device& device);
+  std::uint32_t uploaded_ = 0;  // tables
+  TableUpload upload_;
 };
 
 // Returns the sizes of the buffers of a model and of its instances.
@@ -74,6 +88,8 @@ ModelMemory compute_memory(const LoadedModel& model);
 struct ComputeChunk : ChunkData {
   using Model = ComputeModel;
   ComputeChunk(Device& device, ComputeModel& for_model, std::uint32_t instance_capacity);
+
+  std::uint64_t spheres() const { return std::uint64_t{capacity} * model->spheres(); }
 
   ComputeModel* model;
   Buffer shadows;                  // capacity * ComputeModel::shadows, two floats each
@@ -127,10 +143,20 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
   void make_buffers(Device& device);
   // Uploads the clips that instances have started to use since the last call, and releases clips that no
   // instance uses. Throws Failure.
-  void place_clips(Device& device);
+  void place_clips(Device& device, const Budget& budget);
   // Returns the number of an instance's clips. The bones of the instance must be late
   // (InstanceClip::is_late).
   std::uint32_t number_of_clips(const Instance& instance) const;
+  // Returns whether an update can evaluate an instance in streaming mode.
+  bool is_ready(std::uint32_t slot) const;
+  // Returns how many instances wait for their model or their clips.
+  std::uint32_t count_pending() const;
+  // Creates buffers for chunks with a light that have none. Throws Failure.
+  void make_light_buffers(Device& device);
+  // Follows the edits of a scene in streaming mode. Throws Failure.
+  void follow_edits(Device& device);
+  // Uploads what pending instances need, as long as there is time. Throws Failure.
+  void place_within(Device& device, List<ComputeModel>& models, const Budget& budget);
 
   Buffer stream;  // what one update sends, a piece for each chunk
   Buffer jobs;    // what one call of set_poses sends, a piece for each chunk; created by the first call
@@ -173,8 +199,14 @@ struct ComputeScene : PlacedScene<ComputeChunk> {
 
   // Revisions of the scene at the time when the clips were placed.
   std::uint64_t clips_revision_ = 0, clips_structure_ = 0;
+  void find_clips();
+  // Returns whether the model and the clips of an instance are uploaded.
+  bool has_data(std::uint32_t slot) const;
   void make_sphere_buffers(Device& device);
-  void make_light_buffers(Device& device);
+  // Makes a chunk whose spheres lie in a gap of the buffer, or at its end. So the spheres of
+  // the other chunks stay. Throws Failure.
+  ComputeChunk& add_chunk(Device& device, ComputeModel& model, std::uint32_t instance_capacity);
+  void grow_spheres(Device& device, std::uint64_t count);
 };
 
 inline void bind_whole(const Functions& gl, GLuint binding, const Buffer& buffer) {

@@ -1,9 +1,11 @@
 #include "sdk/src/gl/character/compute_tier.h"
 
 #include <cstdio>
+#include <optional>
 
 #include "sdk/src/character/instance_views.h"
 #include "sdk/src/gl/character/compute_scene.h"
+#include "sdk/src/gl/character/pending_marks.h"
 #include "sdk/src/gl/shader_program.h"
 #include "shaders/character/layout.h"
 
@@ -24,8 +26,9 @@ struct OutputDefine {
 };
 
 // Decides which instances are due. If the update fails later, the next update evaluates these instances.
-void decide(ComputeScene& placed, Scene& scene) {
+void decide(Device& device, ComputeScene& placed, Scene& scene) {
   placed.notice_lights();
+  if (placed.streaming.is_used && placed.lacks_light_buffers()) placed.make_light_buffers(device);
   placed.measure();
   placed.assign(scene, 0);
   ++scene.frame;
@@ -64,7 +67,7 @@ void remember_update(ComputeScene& placed, const Scene& scene) {
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot) {
     const Instance& instance = scene.instances[slot];
     Placement<ComputeChunk>& placement = placed.placements[slot];
-    if (instance.id == 0 || !placement.chunk) continue;
+    if (instance.id == 0 || !placement.chunk || instance.plan.is_far) continue;
     placement.evaluated |= instance.plan.due;
     placement.chunk->transformed[placement.place] = pose_of(instance);
   }
@@ -79,31 +82,72 @@ ComputeTier::ComputeTier(Device& device)
       models_(device.memory),
       scenes_(device.memory) {}
 
+void ComputeTier::make_light_programs() {
+  if (colours_spread_.name()) return;
+  lit_vertices_ = compute_program(device_, "character/vertices.comp", OutputDefine(NOOK_OUTPUT_COLOUR).text);
+  grey_vertices_ = compute_program(device_, "character/vertices.comp", OutputDefine(NOOK_OUTPUT_GREY).text);
+  colours_spread_ = compute_program(device_, "character/colours_spread.comp", "");
+}
+
+void ComputeTier::make_clip_program() {
+  if (decode_clips_.name() == 0) decode_clips_ = compute_program(device_, "character/clip_bones.comp", "");
+}
+
+void ComputeTier::make_spread_program() {
+  if (spread_.name() == 0) spread_ = compute_program(device_, "character/spread.comp", "");
+}
+
+void ComputeTier::make_form_programs(int form, bool lit) {
+  char defines[40];
+  std::snprintf(defines, sizeof defines, "#define NOOK_KERNEL_FORM %d\n", form);
+  if (shadows_[form].name() == 0)
+    shadows_[form] = compute_program(device_, "character/shadows.comp", defines);
+  if (lit && colours_[form].name() == 0)
+    colours_[form] = compute_program(device_, "character/colours.comp", defines);
+}
+
 void ComputeTier::make_programs(const ComputeScene& placed) {
   const bool lit = placed.lights.made();
-  if (lit && lit_vertices_.name() == 0) {
-    lit_vertices_ =
-        compute_program(device_, "character/vertices.comp", OutputDefine(NOOK_OUTPUT_COLOUR).text);
-    grey_vertices_ = compute_program(device_, "character/vertices.comp", OutputDefine(NOOK_OUTPUT_GREY).text);
-    colours_spread_ = compute_program(device_, "character/colours_spread.comp", "");
-  }
-  if (!placed.clips.empty() && decode_clips_.name() == 0)
-    decode_clips_ = compute_program(device_, "character/clip_bones.comp", "");
+  if (lit) make_light_programs();
+  if (!placed.clips.empty()) make_clip_program();
   for (const ComputeModel& model : models_) {
-    if (model.level_count() > 1 && spread_.name() == 0)
-      spread_ = compute_program(device_, "character/spread.comp", "");
-    const auto form = static_cast<int>(model.model->model.kernel.form);
-    char defines[40];
-    std::snprintf(defines, sizeof defines, "#define NOOK_KERNEL_FORM %d\n", form);
-    if (shadows_[form].name() == 0)
-      shadows_[form] = compute_program(device_, "character/shadows.comp", defines);
-    if (lit && colours_[form].name() == 0)
-      colours_[form] = compute_program(device_, "character/colours.comp", defines);
+    if (model.level_count() > 1) make_spread_program();
+    make_form_programs(static_cast<int>(model.model->model.kernel.form), lit);
   }
+}
+
+void ComputeTier::set_streaming(const Scene& scene, std::uint32_t fade_updates) {
+  make_light_programs();
+  make_clip_program();
+  make_spread_program();
+  make_pose_programs();
+  for (int form = 0; form < kernel_form_count; ++form) make_form_programs(form, true);
+  ComputeScene* placed = placed_scene(scenes_, scene);
+  if (!placed) placed = &scenes_.emplace_back(device_, scene);
+  placed->begin_streaming(fade_updates);
+}
+
+bool ComputeTier::is_streaming(const Scene& scene) const {
+  const ComputeScene* const placed = placed_scene(scenes_, scene);
+  return placed && placed->streaming.is_used;
+}
+
+std::uint32_t ComputeTier::prepare_within(const Scene& scene, const Budget& budget) {
+  const Device::Unchecked unchecked(device_);
+  ComputeScene& placed = *placed_scene(scenes_, scene);
+  placed.follow_edits(device_);
+  placed.drop_unused_within(models_, budget);
+  placed.place_within(device_, models_, budget);
+  placed.place_clips(device_, budget);
+  return placed.count_pending();
 }
 
 void ComputeTier::prepare(const Scene& scene) {
   ComputeScene* placed = placed_scene(scenes_, scene);
+  if (placed && placed->streaming.is_used) {
+    prepare_within(scene, Budget::unlimited());
+    return;
+  }
   if (!placed) placed = &scenes_.emplace_back(device_, scene);
   if (placed->outdated()) {
     device_.report_host_errors();
@@ -114,16 +158,24 @@ void ComputeTier::prepare(const Scene& scene) {
     placed->finish();
     placed->write_table(device_);
   }
-  placed->place_clips(device_);
+  placed->place_clips(device_, Budget::unlimited());
   make_programs(*placed);
 }
 
 void ComputeTier::update(Scene& scene) {
   ComputeScene& placed = *placed_scene(scenes_, scene);
-  decide(placed, scene);
+  std::optional<Device::Unchecked> unchecked;
+  if (placed.streaming.is_used) {
+    unchecked.emplace(device_);
+    placed.follow_edits(device_);
+    placed.evaluate_fading();
+  }
+  const PendingMarks marks(placed, scene);
+  decide(device_, placed, scene);
   placed.lights.upload(device_, scene);
   if (upload_frame(device_, placed)) run({placed, scene.settings.form == NOOK_FORM_DEFAULT});
   remember_update(placed, scene);
+  if (placed.streaming.is_used) placed.finish_streamed(scene);
   placed.finish_assigned(scene);
   placed.write_table(device_);
   count_update(placed, scene);
@@ -132,13 +184,14 @@ void ComputeTier::update(Scene& scene) {
 VertexValues ComputeTier::place(const Scene& scene, nook_instance_id instance) const {
   const ComputeScene* placed = placed_scene(scenes_, scene);
   if (!placed) fail_without_place(instance);
-  return scene.pool.is_used() ? placed->pooled_view(instance).values : placed->place(instance);
+  return scene.pool.is_used() || placed->streaming.is_used ? pooled_view(scene, instance).values
+                                                           : placed->place(instance);
 }
 
 PooledView ComputeTier::pooled_view(const Scene& scene, nook_instance_id instance) const {
   const ComputeScene* placed = placed_scene(scenes_, scene);
   if (!placed) fail_without_place(instance);
-  return placed->pooled_view(instance);
+  return placed->streaming.is_used ? placed->streamed_view(instance) : placed->pooled_view(instance);
 }
 
 PoolCount ComputeTier::pool_count(const Scene& scene) const {

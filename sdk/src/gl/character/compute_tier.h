@@ -16,6 +16,9 @@ class ComputeTier final : public Tier {
   void update(Scene& scene) override;
   void set_poses(Scene& scene, const PoseBatch& batch) override;
   void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const override;
+  void set_streaming(const Scene& scene, std::uint32_t fade_updates) override;
+  bool is_streaming(const Scene& scene) const override;
+  std::uint32_t prepare_within(const Scene& scene, const Budget& budget) override;
   VertexValues place(const Scene& scene, nook_instance_id instance) const override;
   PooledView pooled_view(const Scene& scene, nook_instance_id instance) const override;
   PoolCount pool_count(const Scene& scene) const override;
@@ -29,6 +32,11 @@ class ComputeTier final : public Tier {
  private:
   // Compiles the programs that the models and lights of the scene need and that do not exist yet.
   void make_programs(const ComputeScene& placed);
+  void make_form_programs(int form, bool lit);
+  void make_light_programs();
+  void make_clip_program();
+  void make_spread_program();
+  void make_pose_programs();
   // The data of the scene's update that the passes need.
   struct Update {
     const ComputeScene& placed;

@@ -13,15 +13,15 @@ constexpr std::size_t alpha_offset = 4 * sizeof(std::uint16_t);
 constexpr std::size_t blend_offset = alpha_offset + 4 * sizeof(float);
 constexpr std::size_t quad_bytes = blend_offset + 4 * sizeof(float);
 
-// Packs the attributes of each welded vertex, or of each file vertex if draws cannot have indices.
-Vector<std::byte> pack_attributes(const FeedbackModel& sizes, bool welded, Memory* memory) {
+// Packs the attributes of welded vertices, or of file vertices if draws cannot have indices.
+void pack_attributes(const FeedbackModel& sizes, bool welded, std::uint32_t first, std::uint32_t count,
+                     std::byte* out) {
   const CharacterModel& model = sizes.model->model;
-  const std::size_t stride = sizeof(float) + sizes.influence_quads() * quad_bytes;
-  const std::size_t count = welded ? sizes.vertices() : sizes.file_vertices();
-  Vector<std::byte> out(count * stride, std::byte{0}, memory);
+  const std::size_t stride = sizes.attribute_bytes();
+  std::memset(out, 0, count * stride);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t v = welded ? i : model.file_to_welded[i];
-    std::byte* const vertex = out.data() + i * stride;
+    const std::size_t v = welded ? first + i : model.file_to_welded[first + i];
+    std::byte* const vertex = out + i * stride;
     std::memcpy(vertex, &model.bias[v], sizeof(float));
     for (std::size_t e = 0; e < model.influences; ++e) {
       const std::size_t entry = v * model.influences + e;
@@ -31,7 +31,6 @@ Vector<std::byte> pack_attributes(const FeedbackModel& sizes, bool welded, Memor
       std::memcpy(quad + blend_offset + e % 4 * sizeof(float), &model.blend[entry], sizeof(float));
     }
   }
-  return out;
 }
 
 void point_attributes(const Device& device, std::uint32_t quads) {
@@ -56,16 +55,37 @@ void point_attributes(const Device& device, std::uint32_t quads) {
 
 }  // namespace
 
-FeedbackModel::FeedbackModel(Device& device, Ref<const LoadedModel> loaded) : ModelData(std::move(loaded)) {
+std::uint32_t FeedbackModel::attribute_bytes() const {
+  return static_cast<std::uint32_t>(sizeof(float) + influence_quads() * quad_bytes);
+}
+
+void FeedbackModel::upload_piece(Device& device) {
+  const bool indexed = device.gl.can.indexed_feedback;
+  if (!has_attributes_) {
+    const TableShape shape{"nook: linear layer", indexed ? vertices() : file_vertices(), attribute_bytes()};
+    has_attributes_ = upload_.send(device, attributes, shape,
+                                   [&](std::uint32_t first, std::uint32_t count, std::byte* out) {
+                                     pack_attributes(*this, indexed, first, count, out);
+                                   });
+    return;
+  }
+  if (indexed) {
+    const TableShape shape{"nook: file order", file_vertices(), sizeof(std::uint32_t)};
+    const auto copy = [&](std::uint32_t first, std::uint32_t count, std::byte* out) {
+      std::memcpy(out, model->model.file_to_welded.data() + first, count * sizeof(std::uint32_t));
+    };
+    if (!upload_.send(device, indices, shape, copy)) return;
+  }
+  describe_vertices(device);
+  is_uploaded_ = true;
+}
+
+void FeedbackModel::describe_vertices(Device& device) {
   vertex_array = Object::make(device, Object::Kind::vertex_array);
   device.gl.BindVertexArray(vertex_array.name());
-  const bool indexed = device.gl.can.indexed_feedback;
-  attributes = static_buffer(device, "nook: linear layer", pack_attributes(*this, indexed, device.memory));
+  device.gl.BindBuffer(GL_ARRAY_BUFFER, attributes.name());
   point_attributes(device, influence_quads());
-  if (indexed) {
-    indices = static_buffer(device, "nook: file order", model->model.file_to_welded);
-    device.gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
-  }
+  if (indices.name()) device.gl.BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.name());
   device.check("describing a model's vertices");
 }
 
@@ -83,6 +103,27 @@ ModelMemory feedback_memory(const LoadedModel& loaded, bool indexed) {
   return memory;
 }
 
+void FeedbackScene::follow_edits(Device& device) {
+  if (!outdated()) return;
+  notice_edits(device);
+  finish();
+}
+
+void FeedbackScene::place_within(Device& device, List<FeedbackModel>& models, const Budget& budget) {
+  const auto make_chunk = [&](FeedbackModel& model, std::uint32_t capacity) -> FeedbackChunk& {
+    FeedbackChunk& made = chunks.emplace_back(device, model, capacity);
+    try {
+      make_shadow_page(device);
+    } catch (...) {
+      chunks.pop_back();
+      throw;
+    }
+    return made;
+  };
+  while (place_next(device, models, make_chunk) && budget.is_left()) {
+  }
+}
+
 void FeedbackScene::make_buffers(Device& device) {
   make_shadow_page(device);
   make_light_buffers(device);
@@ -98,6 +139,8 @@ void FeedbackScene::make_shadow_page(Device& device) {
   // one instance. The 65,536 texels that every OpenGL supports are enough for this, because key points have
   // 16-bit indices.
   constexpr std::uint64_t enough = 1 << 20;
+  // While models stream, the page grows by half, so that it rarely grows.
+  if (streaming.is_used && texels > shadows.capacity()) texels = std::max(texels, shadows.capacity() * 3 / 2);
   texels = std::max(largest, std::min({texels, std::uint64_t{device.max_texels}, enough}));
   shadows.reserve(device, GL_RG32F, texels, "nook: shadows");
 }
@@ -120,6 +163,7 @@ void FeedbackScene::make_colour_page(Device& device) {
     texels += std::uint64_t{chunk.capacity} * chunk.model->key_points() * NOOK_COLOUR_VEC4S;
     largest = std::max<std::uint64_t>(largest, chunk.model->key_points() * NOOK_COLOUR_VEC4S);
   }
+  if (largest == 0) return;
   if (largest > device.max_texels)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "a model with a light has %llu key points, but a texture buffer of this OpenGL holds %u; "

@@ -8,9 +8,13 @@
 namespace nook::gl {
 
 struct FeedbackModel : ModelData {
-  // Throws Failure, with UNSUPPORTED if the model exceeds the limits of this OpenGL.
-  FeedbackModel(Device& device, Ref<const LoadedModel> loaded);
+  explicit FeedbackModel(Ref<const LoadedModel> loaded) : ModelData(std::move(loaded)) {}
 
+  bool is_uploaded() const { return is_uploaded_; }
+  // Throws Failure, with UNSUPPORTED if the model exceeds the limits of this OpenGL.
+  void upload_piece(Device& device);
+
+  std::uint32_t attribute_bytes() const;  // of a vertex
   std::uint32_t influence_quads() const { return (model->model.influences + 3) / 4; }
   // Returns how many bytes of one buffer an instance with a light needs at most. Only counts buffers of a
   // chunk that are bound as a whole.
@@ -20,6 +24,11 @@ struct FeedbackModel : ModelData {
   Buffer attributes;
   Buffer indices;
   Object vertex_array;
+
+ private:
+  void describe_vertices(Device& device);
+  bool has_attributes_ = false, is_uploaded_ = false;
+  TableUpload upload_;
 };
 
 // Returns the sizes of the buffers of a model and of its instances. Pass true for `indexed` if draws use
@@ -43,6 +52,14 @@ struct FeedbackScene : PlacedScene<FeedbackChunk> {
 
   // Creates the buffers for all places that place_all has assigned to instances. Throws Failure.
   void make_buffers(Device& device);
+  // Returns whether an update can evaluate an instance in streaming mode.
+  bool is_ready(std::uint32_t slot) const { return placements[slot].chunk; }
+  // Creates buffers for chunks with a light that have none. Throws Failure.
+  void make_light_buffers(Device& device);
+  // Follows the edits of a scene in streaming mode. Throws Failure.
+  void follow_edits(Device& device);
+  // Uploads what pending instances need, as long as there is time. Throws Failure.
+  void place_within(Device& device, List<FeedbackModel>& models, const Budget& budget);
   // Returns whether the AO in this place is due.
   bool waits(const FeedbackChunk& chunk, std::uint32_t place) const {
     const std::uint32_t slot = chunk.slots[place];
@@ -56,7 +73,6 @@ struct FeedbackScene : PlacedScene<FeedbackChunk> {
 
  private:
   void make_shadow_page(Device& device);
-  void make_light_buffers(Device& device);
   void make_colour_page(Device& device);
 };
 

@@ -1,8 +1,10 @@
 #include "sdk/src/gl/character/feedback_tier.h"
 
 #include <cstdio>
+#include <optional>
 
 #include "sdk/src/character/instance_views.h"
+#include "sdk/src/gl/character/pending_marks.h"
 #include "sdk/src/gl/shader_program.h"
 #include "sdk/src/gl/state_guard.h"
 #include "shaders/character/layout.h"
@@ -88,13 +90,38 @@ FeedbackTier::Program FeedbackTier::make_program(int quads, bool lit) {
   program.first_key_point = uniform_location(device_, program.object, "nook_first_key_point");
   program.key_point_count = uniform_location(device_, program.object, "nook_key_point_count");
   program.self = uniform_location(device_, program.object, "nook_self");
+  program.hidden = uniform_location(device_, program.object, "nook_hidden");
   device_.gl.UseProgram(program.object.name());
   device_.gl.Uniform1i(uniform_location(device_, program.object, "nook_shadows"), 0);
   return program;
 }
 
+void FeedbackTier::set_streaming(const Scene& scene, std::uint32_t fade_updates) {
+  FeedbackScene* placed = placed_scene(scenes_, scene);
+  if (!placed) placed = &scenes_.emplace_back(device_, scene);
+  placed->begin_streaming(fade_updates);
+}
+
+bool FeedbackTier::is_streaming(const Scene& scene) const {
+  const FeedbackScene* const placed = placed_scene(scenes_, scene);
+  return placed && placed->streaming.is_used;
+}
+
+std::uint32_t FeedbackTier::prepare_within(const Scene& scene, const Budget& budget) {
+  const Device::Unchecked unchecked(device_);
+  FeedbackScene& placed = *placed_scene(scenes_, scene);
+  placed.follow_edits(device_);
+  placed.drop_unused_within(models_, budget);
+  placed.place_within(device_, models_, budget);
+  return placed.streaming.pending;
+}
+
 void FeedbackTier::prepare(const Scene& scene) {
   FeedbackScene* placed = placed_scene(scenes_, scene);
+  if (placed && placed->streaming.is_used) {
+    prepare_within(scene, Budget::unlimited());
+    return;
+  }
   if (!placed) placed = &scenes_.emplace_back(device_, scene);
   if (!placed->outdated()) return;
   device_.report_host_errors();
@@ -126,24 +153,35 @@ void FeedbackTier::read_pose(const Scene&, nook_instance_id, std::span<Mat3x4>) 
 void FeedbackTier::update(Scene& scene) {
   need_cpu_poses(scene);
   FeedbackScene& placed = *placed_scene(scenes_, scene);
+  std::optional<Device::Unchecked> unchecked;
+  if (placed.streaming.is_used) {
+    unchecked.emplace(device_);
+    placed.follow_edits(device_);
+    placed.evaluate_fading();
+  }
+  const PendingMarks marks(placed, scene);
   placed.notice_lights();
+  if (placed.streaming.is_used && placed.lacks_light_buffers()) placed.make_light_buffers(device_);
   nook::update(scene);
   // If an upload fails, the next update uploads these instances again.
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
     placed.placements[slot].evaluated &= !scene.instances[slot].plan.due;
   placed.lights.upload(device_, scene);
   draw_scene(placed);
+  if (placed.streaming.is_used) placed.finish_streamed(scene);
 }
 
 VertexValues FeedbackTier::place(const Scene& scene, nook_instance_id instance) const {
   const FeedbackScene* placed = placed_scene(scenes_, scene);
   if (!placed) fail_without_place(instance);
-  return placed->place(instance);
+  return placed->streaming.is_used ? placed->streamed_view(instance).values : placed->place(instance);
 }
 
 // prepare refuses a scene with a pool.
-PooledView FeedbackTier::pooled_view(const Scene&, nook_instance_id instance) const {
-  fail_without_place(instance);
+PooledView FeedbackTier::pooled_view(const Scene& scene, nook_instance_id instance) const {
+  const FeedbackScene* placed = placed_scene(scenes_, scene);
+  if (!placed || !placed->streaming.is_used) fail_without_place(instance);
+  return placed->streamed_view(instance);
 }
 
 PoolCount FeedbackTier::pool_count(const Scene&) const {
@@ -205,12 +243,13 @@ void FeedbackTier::draw_chunk(const FeedbackScene& placed, const FeedbackChunk& 
 }
 
 // Instances at consecutive places are also consecutive in the page. One draw handles a run of such instances
-// if all of them have self-shadow, or if none has.
+// if all of them have self-shadow, or if none has, and if they are equally hidden.
 void FeedbackTier::draw_page(const FeedbackScene& placed, const FeedbackChunk& chunk, std::uint32_t first,
                              std::uint32_t end, const Program& program, const Target& target) const {
   const auto has_self = [&](std::uint32_t place) {
     return has_self_shadow(*placed.scene, placed.scene->instances[chunk.slots[place]]);
   };
+  const auto hidden_steps = [&](std::uint32_t place) { return placed.hidden_steps(chunk.slots[place]); };
   std::uint32_t drawn = 0;
   while (first < end) {
     if (!placed.waits(chunk, first)) {
@@ -218,9 +257,13 @@ void FeedbackTier::draw_page(const FeedbackScene& placed, const FeedbackChunk& c
       continue;
     }
     const bool self = has_self(first);
+    const std::uint32_t hidden = hidden_steps(first);
     std::uint32_t run_end = first + 1;
-    while (run_end < end && placed.waits(chunk, run_end) && has_self(run_end) == self) ++run_end;
+    while (run_end < end && placed.waits(chunk, run_end) && has_self(run_end) == self &&
+           hidden_steps(run_end) == hidden)
+      ++run_end;
     device_.gl.Uniform1i(program.self, self);
+    device_.gl.Uniform1f(program.hidden, static_cast<float>(hidden) / static_cast<float>(NOOK_HIDDEN_STEPS));
     device_.gl.Uniform1i(program.first_key_point, static_cast<GLint>(drawn * chunk.model->key_points()));
     draw(chunk, first, run_end, target);
     drawn += run_end - first;

@@ -17,6 +17,9 @@ class FeedbackTier final : public Tier {
   void update(Scene& scene) override;
   void set_poses(Scene& scene, const PoseBatch& batch) override;
   void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const override;
+  void set_streaming(const Scene& scene, std::uint32_t fade_updates) override;
+  bool is_streaming(const Scene& scene) const override;
+  std::uint32_t prepare_within(const Scene& scene, const Budget& budget) override;
   VertexValues place(const Scene& scene, nook_instance_id instance) const override;
   PooledView pooled_view(const Scene& scene, nook_instance_id instance) const override;
   PoolCount pool_count(const Scene& scene) const override;
@@ -30,7 +33,7 @@ class FeedbackTier final : public Tier {
  private:
   struct Program {
     Object object;
-    GLint first_key_point = -1, key_point_count = -1, self = -1;
+    GLint first_key_point = -1, key_point_count = -1, self = -1, hidden = -1;
   };
   // The source and the destination of a draw.
   struct Target {

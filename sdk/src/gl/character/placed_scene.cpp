@@ -4,14 +4,24 @@
 
 namespace nook::gl {
 
-Buffer static_buffer(Device& device, const char* label, const void* data, std::uint64_t bytes) {
+void TableUpload::begin(Device& device, Buffer& buffer, const TableShape& shape) const {
+  if (next_ > 0) return;
+  const std::uint64_t bytes = shape.elements * shape.element_bytes;
   if (bytes > device.max_piece_bytes)
     throw Failure(NOOK_ERROR_UNSUPPORTED,
                   "a model needs %llu bytes in one buffer, but this OpenGL allows %llu; use a model with "
                   "fewer vertices",
                   static_cast<unsigned long long>(bytes),
                   static_cast<unsigned long long>(device.max_piece_bytes));
-  return Buffer(device, label, bytes, data, GL_STATIC_DRAW);
+  buffer = Buffer(device, shape.label, bytes, nullptr, GL_STATIC_DRAW);
+}
+
+void TableUpload::send_piece(const Device& device, const Buffer& buffer, const TableShape& shape,
+                             std::uint32_t count, const void* piece) {
+  device.gl.BindBuffer(GL_ARRAY_BUFFER, buffer.name());
+  device.gl.BufferSubData(GL_ARRAY_BUFFER, static_cast<GLintptr>(next_ * shape.element_bytes),
+                          static_cast<GLsizeiptr>(std::uint64_t{count} * shape.element_bytes), piece);
+  next_ += count;
 }
 
 namespace {
@@ -24,7 +34,17 @@ constexpr std::uint64_t max_groups = 65535;
 Buffer open_buffer(Device& device, const char* label, std::uint64_t floats) {
   const std::uint64_t bytes = floats * sizeof(float);
   Buffer buffer(device, label, bytes, nullptr, GL_DYNAMIC_COPY, BufferUse::ao);
-  buffer.write(bytes, [&](void* memory) { std::fill_n(static_cast<float*>(memory), floats, 1.0f); });
+  std::array<float, 4096> ones;
+  ones.fill(1);
+  std::uint64_t done = std::min<std::uint64_t>(bytes, sizeof ones);
+  device.gl.BufferSubData(GL_ARRAY_BUFFER, 0, static_cast<GLsizeiptr>(done), ones.data());
+  // The rest are copies on the GPU, so that the CPU's time does not depend on the size.
+  while (done < bytes) {
+    const std::uint64_t more = std::min(done, bytes - done);
+    device.gl.CopyBufferSubData(GL_ARRAY_BUFFER, GL_ARRAY_BUFFER, 0, static_cast<GLintptr>(done),
+                                static_cast<GLsizeiptr>(more));
+    done += more;
+  }
   return buffer;
 }
 

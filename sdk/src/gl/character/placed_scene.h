@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <list>
 #include <vector>
@@ -12,11 +14,51 @@
 #include "sdk/src/character/scene_pool.h"
 #include "sdk/src/core/containers.h"
 #include "sdk/src/core/failure.h"
+#include "sdk/src/gl/character/budget.h"
 #include "sdk/src/gl/character/light_texture.h"
 #include "sdk/src/gl/character/tier.h"
 #include "sdk/src/gl/object.h"
+#include "shaders/character/layout.h"
 
 namespace nook::gl {
+
+// Tables that never change are packed and uploaded in pieces, so that a call with a Budget can stop between
+// two pieces. A piece takes some ten microseconds.
+struct TableShape {
+  const char* label;
+  std::uint64_t elements;
+  std::uint32_t element_bytes;
+};
+
+class TableUpload {
+ public:
+  // Sends the next piece of a table to `buffer`, and creates the buffer for the first piece.
+  // write(first, count, out) must write elements. Returns whether the table is complete; the next call then
+  // begins another table. Throws Failure, and then the next call repeats the piece. It is
+  // Failure(UNSUPPORTED) if the buffer is too large to be bound by this OpenGL.
+  template <class Write>
+  bool send(Device& device, Buffer& buffer, const TableShape& shape, Write&& write) {
+    begin(device, buffer, shape);
+    const std::uint64_t left = shape.elements - next_;
+    const auto count =
+        static_cast<std::uint32_t>(std::min<std::uint64_t>(left, piece_bytes / shape.element_bytes));
+    if (count > 0) {
+      alignas(16) std::array<std::byte, piece_bytes> piece;
+      write(static_cast<std::uint32_t>(next_), count, piece.data());
+      send_piece(device, buffer, shape, count, piece.data());
+    }
+    if (next_ < shape.elements) return false;
+    next_ = 0;
+    return true;
+  }
+
+ private:
+  static constexpr std::size_t piece_bytes = 1 << 14;
+  void begin(Device& device, Buffer& buffer, const TableShape& shape) const;
+  void send_piece(const Device& device, const Buffer& buffer, const TableShape& shape, std::uint32_t count,
+                  const void* piece);
+  std::uint64_t next_ = 0;  // element
+};
 
 struct ModelData {
   explicit ModelData(Ref<const LoadedModel> loaded) : model(std::move(loaded)) {}
@@ -29,29 +71,29 @@ struct ModelData {
   std::uint32_t bones() const { return static_cast<std::uint32_t>(model->model.bone_count()); }
 
   Ref<const LoadedModel> model;
-  std::uint32_t users = 0;   // number of chunks that use the model
+  std::uint32_t users = 0;   // number of chunks that use the model, and of scenes that upload it
   std::uint32_t number = 0;  // identifies the model among the tier's models; starts at 1
 };
 
-// Creates a buffer whose data never change. Throws Failure, with UNSUPPORTED if the buffer is too large to be
-// bound by this OpenGL.
-Buffer static_buffer(Device& device, const char* label, const void* data, std::uint64_t bytes);
-template <class T>
-Buffer static_buffer(Device& device, const char* label, const Vector<T>& data) {
-  return static_buffer(device, label, data.data(), data.size() * sizeof(T));
-}
-
-// Returns the tier's copy of a model. Creates it if it does not exist yet. Throws Failure.
+// Returns the tier's copy of a model, which may not be uploaded yet. Creates it if it does not exist. Throws
+// std::bad_alloc.
 template <class Model>
-Model& model_data(Device& device, List<Model>& models, const Ref<const LoadedModel>& loaded) {
+Model& known_model(List<Model>& models, const Ref<const LoadedModel>& loaded) {
   std::uint32_t last = 0;
   for (Model& known : models) {
     if (known.model.get() == loaded.get()) return known;
     last = std::max(last, known.number);
   }
-  Model& made = models.emplace_back(device, loaded);
+  Model& made = models.emplace_back(loaded);
   made.number = last + 1;
   return made;
+}
+// Returns the tier's copy of a model, and uploads what is missing. Throws Failure.
+template <class Model>
+Model& model_data(Device& device, List<Model>& models, const Ref<const LoadedModel>& loaded) {
+  Model& model = known_model(models, loaded);
+  while (!model.is_uploaded()) model.upload_piece(device);
+  return model;
 }
 
 // Releases models that no chunk uses any more.
@@ -59,6 +101,36 @@ template <class Model>
 void drop_unused(List<Model>& models) {
   models.remove_if([](const Model& model) { return model.users == 0; });
 }
+
+// Removes elements one by one as long as there is time.
+template <class Element, class Unused>
+void drop_within(List<Element>& elements, const Budget& budget, const Unused& is_unused) {
+  for (auto at = elements.begin(); at != elements.end();) {
+    const auto next = std::next(at);
+    if (is_unused(*at)) {
+      elements.erase(at);
+      if (!budget.is_left()) return;
+    }
+    at = next;
+  }
+}
+
+// Keeps a model while a scene uploads it.
+class ModelUse {
+ public:
+  ModelUse() = default;
+  ModelUse(const ModelUse&) = delete;
+  ModelUse& operator=(const ModelUse&) = delete;
+  ~ModelUse() { set(nullptr); }
+  void set(ModelData* model) noexcept {
+    if (model) ++model->users;
+    if (model_) --model_->users;
+    model_ = model;
+  }
+
+ private:
+  ModelData* model_ = nullptr;
+};
 
 // The instances of a model are stored next to each other in chunks. The buffers of a chunk stay below the
 // size that OpenGL guarantees.
@@ -100,16 +172,27 @@ std::uint32_t max_in_chunk(const Device& device, std::uint64_t share);
 template <class Chunk>
 struct Placement {
   nook_instance_id id = 0;
-  std::uint32_t place = 0;  // without a chunk: ModelData::number of the model whose open AO the view shows
-  Chunk* chunk = nullptr;   // null: the instance is far, in a scene with a pool
-  bool evaluated = false;   // the AO in the chunk comes from an update
-  bool lit = false;         // the last update saw a light
-  // Only in a scene with a pool (compute_pool.cpp).
-  bool is_chosen = false;        // gets a place in this update
-  bool is_new = false;           // its place still has the AO of another instance
-  float distance = 0;            // from the camera
-  std::uint32_t generation = 0;  // PooledView::generation
+  // Without a chunk, ModelData::number of the model whose open AO the view shows. If the instance is pending,
+  // pending_key of its model.
+  std::uint32_t place = 0;
+  Chunk* chunk = nullptr;        // null: the instance is far, in a scene with a pool, or pending
+  bool evaluated : 1 = false;    // the AO in the chunk comes from an update
+  bool lit : 1 = false;          // the last update saw a light
+  bool is_new : 1 = false;       // its place still has the AO of another instance
+  bool is_chosen : 1 = false;    // only in a pool: gets a place in this update
+  std::uint16_t fading = 0;      // only in streaming mode: updates until the AO has its value
+  float distance = 0;            // only in a pool: from the camera
+  std::uint32_t generation = 0;  // of the view, in a pool or in streaming mode
   std::uint32_t pose_call = 0;   // the last call of set_poses that named the instance
+};
+
+// The streaming mode of a scene (nook_streaming.h).
+struct Streaming {
+  bool is_used = false;
+  std::uint32_t fade_updates = 0;
+  std::uint32_t pending = 0;  // instances without a chunk
+  std::size_t next = 0;       // no slot before it is pending
+  ModelUse uploading;
 };
 
 // Copies values to `out`, and waits for the GPU. Throws Failure.
@@ -125,7 +208,7 @@ class PlacedScene {
   using Model = typename Chunk::Model;
 
   PlacedScene(const Scene& of, Memory* memory)
-      : scene(&of), chunks(memory), placements(memory), lights(memory) {}
+      : scene(&of), chunks(memory), placements(memory), lights(memory), ones_(memory) {}
 
   // True if the structure of the scene has changed since places were assigned.
   bool outdated() const { return !prepared_ || structure_revision_ != scene->structure_revision; }
@@ -149,6 +232,106 @@ class PlacedScene {
     prepared_ = true;
   }
 
+  // The next functions are for streaming mode.
+
+  void begin_streaming(std::uint32_t fade_updates) noexcept {
+    // Instances that have a place keep it.
+    if (!streaming.is_used) prepared_ = false;
+    streaming.is_used = true;
+    streaming.fade_updates = fade_updates;
+    for (Placement<Chunk>& placement : placements)
+      placement.fading = std::min(placement.fading, longest_fade());
+  }
+  // Follows the edits of the scene: frees the places of instances that were removed, and notes new instances
+  // as pending. Throws Failure.
+  void notice_edits(Device& device) {
+    prepared_ = false;
+    vacate_removed();
+    placements.resize(scene->instances.size());
+    lights.resize(scene->instances.size());
+    streaming.pending = 0;
+    streaming.next = 0;
+    for (std::size_t slot = 0; slot < placements.size(); ++slot) {
+      Placement<Chunk>& placement = placements[slot];
+      if (placement.chunk && !placement.is_new) continue;
+      const Instance& instance = scene->instances[slot];
+      if (instance.id == 0) continue;
+      placement.id = instance.id;
+      const std::uint32_t key = pending_key(*instance.model);
+      if (!placement.chunk && placement.place != key) placement.generation = 0;  // another view
+      if (!placement.chunk) placement.place = key;
+      const bool is_lit = instance.light().lobes.size() > 0;
+      if (is_lit) lights.make(device);
+      need_ones(device, instance.model->model.file_to_welded.size() * (is_lit ? 3 : 1));
+      if (!placement.chunk) ++streaming.pending;
+    }
+    if (streaming.pending == 0) streaming.uploading.set(nullptr);
+  }
+  // Does the next piece of work for pending instances. Returns false if there is none. `make_chunk(model,
+  // instances)` must return a new chunk. Throws Failure.
+  template <class MakeChunk>
+  bool place_next(Device& device, List<Model>& models, const MakeChunk& make_chunk) {
+    if (streaming.pending == 0) return false;
+    while (!is_pending(placements[streaming.next])) ++streaming.next;
+    const auto slot = static_cast<std::uint32_t>(streaming.next);
+    Model& model = known_model(models, scene->instances[slot].model);
+    streaming.uploading.set(&model);
+    if (!model.is_uploaded()) {
+      model.upload_piece(device);
+      return true;
+    }
+    Chunk* chunk = with_room(model);
+    if (!chunk) chunk = &make_chunk(model, wanted_room(device, model));
+    take_place(*chunk, slot);
+    Placement<Chunk>& placement = placements[slot];
+    placement.evaluated = false;
+    placement.is_new = true;
+    placement.fading = longest_fade();
+    if (--streaming.pending == 0) streaming.uploading.set(nullptr);
+    return true;
+  }
+  // Releases chunks and models that no instance uses any more, as long as there is time.
+  void drop_unused_within(List<Model>& models, const Budget& budget) {
+    drop_within(chunks, budget, [](const Chunk& chunk) { return chunk.living == 0; });
+    drop_within(models, budget, [](const Model& model) { return model.users == 0; });
+  }
+  // Returns how much of the AO of an instance is still hidden, in the steps of NOOK_RECORD_HIDDEN_STEPS.
+  std::uint32_t hidden_steps(std::uint32_t slot) const {
+    const std::uint32_t fading = placements[slot].fading;
+    return fading == 0 ? 0 : std::max(fading * NOOK_HIDDEN_STEPS / streaming.fade_updates, 1u);
+  }
+  // Lets the next update evaluate all instances that fade in.
+  void evaluate_fading() noexcept {
+    for (Placement<Chunk>& placement : placements)
+      if (placement.fading > 0) placement.evaluated = false;
+  }
+  // Returns whether an instance in a place has a light, but its chunk has no buffers for lights.
+  bool lacks_light_buffers() const noexcept {
+    return std::any_of(placements.begin(), placements.end(), [](const Placement<Chunk>& placement) {
+      return placement.chunk && placement.lit && placement.chunk->directional_ao.name() == 0;
+    });
+  }
+  // Counts down the fades of instances that this update evaluates, and shows instances their new AO.
+  void finish_streamed(Scene& scene_to_change) noexcept {
+    for (std::size_t slot = 0; slot < placements.size(); ++slot) {
+      Placement<Chunk>& placement = placements[slot];
+      if (placement.generation == 0 && placement.id) placement.generation = ++scene_to_change.pool.generation;
+      if (!(placement.fading || placement.is_new) || !placement.evaluated) continue;
+      if (placement.fading > 0) --placement.fading;
+      if (!placement.is_new) continue;
+      placement.is_new = false;
+      placement.generation = ++scene_to_change.pool.generation;
+    }
+  }
+  // Returns the view of an instance, which shows ones until its first update.
+  PooledView streamed_view(nook_instance_id instance) const {
+    const Placement<Chunk>* const placement = find(instance);
+    if (!placement) fail_without_place(instance);
+    if (placement->chunk && !placement->is_new)
+      return {values(placement->chunk->ao, *placement, 1), placement->generation, true};
+    return {ones(instance, 1), placement->generation, false};
+  }
+
   // Marks instances that got a light after the last update as due. Call it before you decide which instances
   // are due.
   void notice_lights() noexcept {
@@ -170,6 +353,8 @@ class PlacedScene {
     const std::uint32_t texel =
         placement && placement->lit ? lights.first_texel(slot_of(*placement)) : LightTexture::no_light;
     if (texel == LightTexture::no_light) fail_without_light(instance);
+    if (streaming.is_used && (!placement->chunk || placement->is_new))
+      return {ones(instance, 3), lights.texture(), texel};
     return {values(placement->chunk->directional_ao, *placement, 3), lights.texture(), texel};
   }
 
@@ -177,6 +362,7 @@ class PlacedScene {
   List<Chunk> chunks;
   Vector<Placement<Chunk>> placements;
   LightTexture lights;
+  Streaming streaming;
 
  protected:
   // Puts the instance in `slot` into a chunk that has room.
@@ -207,6 +393,47 @@ class PlacedScene {
   }
 
  private:
+  // Returns a number that differs for most models.
+  static std::uint32_t pending_key(const LoadedModel& model) {
+    return static_cast<std::uint32_t>(reinterpret_cast<std::uintptr_t>(&model) >> 4);
+  }
+  std::uint16_t longest_fade() const {
+    return static_cast<std::uint16_t>(streaming.fade_updates > 0 ? streaming.fade_updates - 1 : 0);
+  }
+  static bool is_pending(const Placement<Chunk>& placement) { return placement.id && !placement.chunk; }
+
+  Chunk* with_room(const Model& model) noexcept {
+    for (Chunk& chunk : chunks)
+      if (chunk.model == &model && chunk.living < chunk.capacity) return &chunk;
+    return nullptr;
+  }
+  // Returns the capacity of a new chunk for the pending instances of a model, and for half as many as live.
+  std::uint32_t wanted_room(const Device& device, const Model& model) const {
+    std::uint32_t living = 0, pending = 0;
+    for (const Chunk& chunk : chunks)
+      if (chunk.model == &model) living += chunk.living;
+    for (const Placement<Chunk>& placement : placements)
+      pending += is_pending(placement) && placement.place == pending_key(*model.model);
+    return std::min(std::max({pending, living / 2, 1u}), max_in_chunk(device, model.largest_share()));
+  }
+
+  // Makes a buffer of at least so many ones. The earlier buffers stay, because views show them.
+  void need_ones(Device& device, std::uint64_t floats) {
+    const std::uint64_t most = ones_.empty() ? 0 : ones_.back().bytes() / sizeof(float);
+    if (floats > most) ones_.push_back(open_buffer(device, "nook: ones", std::max(floats, 2 * most)));
+  }
+  VertexValues ones(nook_instance_id instance, std::uint32_t channels) const {
+    const auto vertices =
+        static_cast<std::uint32_t>(instance_of(*scene, instance).model->model.file_to_welded.size());
+    VertexValues values{0, 0, vertices, channels};
+    for (const Buffer& buffer : ones_)
+      if (buffer.bytes() >= values.bytes()) {
+        values.buffer = buffer.name();
+        return values;
+      }
+    fail_without_place(instance);
+  }
+
   std::size_t slot_of(const Placement<Chunk>& placement) const {
     return static_cast<std::size_t>(&placement - placements.data());
   }
@@ -223,7 +450,7 @@ class PlacedScene {
     Chunk* const chunk = placement.chunk;
     if (chunk) leave_place(placement);
     placement = {};
-    if (chunk && chunk->living == 0 && !scene->pool.is_used())
+    if (chunk && chunk->living == 0 && !scene->pool.is_used() && !streaming.is_used)
       chunks.remove_if([&](const Chunk& c) { return &c == chunk; });
   }
 
@@ -281,6 +508,7 @@ class PlacedScene {
                                std::min(wanted, max_in_chunk(device, shared.largest_share())));
   }
 
+  List<Buffer> ones_;                     // for pending instances, from the smallest to the largest
   std::uint64_t structure_revision_ = 0;  // revision of the scene's structure for which the places were
                                           // assigned
   bool prepared_ = false;

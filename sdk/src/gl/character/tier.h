@@ -4,6 +4,7 @@
 #pragma once
 
 #include "sdk/src/character/scene.h"
+#include "sdk/src/gl/character/budget.h"
 #include "sdk/src/gl/character/pose_batch.h"
 #include "sdk/src/gl/device.h"
 
@@ -65,7 +66,8 @@ class Tier {
   // The call is cheap if nothing has changed. Throws Failure. What was created until then is kept, and the
   // next call continues from there.
   virtual void prepare(const Scene& scene) = 0;
-  // Evaluates a prepared scene. If it throws Failure, the next update evaluates the missing instances.
+  // Evaluates a prepared scene, or the instances of a scene in streaming mode that are ready. If it throws
+  // Failure, the next update evaluates the missing instances.
   virtual void update(Scene& scene) = 0;
 
   // Sets the poses of instances of a prepared scene from the host's buffer. If it throws Failure, nothing has
@@ -74,9 +76,16 @@ class Tier {
   // Copies the bones of an instance, in world space, and waits for the GPU. Throws Failure.
   virtual void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const = 0;
 
+  // Puts a scene into streaming mode, and compiles the programs that it may need. Throws Failure.
+  virtual void set_streaming(const Scene& scene, std::uint32_t fade_updates) = 0;
+  virtual bool is_streaming(const Scene& scene) const = 0;
+  // Prepares pending instances of a scene in streaming mode as long as there is time, and returns how many
+  // are left. Throws Failure.
+  virtual std::uint32_t prepare_within(const Scene& scene, const Budget& budget) = 0;
+
   // Returns where the AO of an instance is. Throws Failure if the instance has no place.
   virtual VertexValues place(const Scene& scene, nook_instance_id instance) const = 0;
-  // The same for a scene with a pool.
+  // The same for a scene with a pool or in streaming mode.
   virtual PooledView pooled_view(const Scene& scene, nook_instance_id instance) const = 0;
   virtual PoolCount pool_count(const Scene& scene) const = 0;
   // Returns the table of a prepared scene with a pool. From the first call on, the tier keeps the table
