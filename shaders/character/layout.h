@@ -81,8 +81,8 @@
 #define NOOK_RECORD_CLIPS_SHIFT 20
 #define NOOK_RECORD_CLIPS_MASK 0x3ffu
 #define NOOK_RECORD_PLACE 0xfffffu
-// Another word contains the number of exact spheres. Its upper bits tell how much of the AO is hidden while the
-// instance fades in, from 0 to NOOK_HIDDEN_STEPS.
+// Another word contains the number of exact spheres. Its upper bits tell how much of the AO is hidden while
+// the instance fades in, from 0 to NOOK_HIDDEN_STEPS.
 #define NOOK_RECORD_HIDDEN_SHIFT 21
 #define NOOK_RECORD_EXACT_COUNT 0x1fffffu
 #define NOOK_HIDDEN_STEPS 2047u

@@ -5,7 +5,6 @@
 #include "sdk/src/api/gl/scene_handle.h"
 #include "sdk/src/character/scene_pool.h"
 #include "sdk/src/core/checks.h"
-#include "shaders/character/layout.h"
 
 using namespace nook;
 
@@ -16,7 +15,7 @@ nook_result nook_gl_scene_set_streaming(nook_gl gl, nook_scene scene, const nook
       throw Failure(NOOK_ERROR_INVALID_ARGUMENT,
                     "desc.struct_size is too small (got %u, need at least %zu); set it to sizeof",
                     desc->struct_size, sizeof *desc);
-    check_at_most("desc.fade_updates", desc->fade_updates, NOOK_HIDDEN_STEPS);
+    check_at_most("desc.fade_updates", desc->fade_updates, gl::max_fade_updates);
     check_at_most("desc.instance_count", desc->instance_count, max_slots);
     need_no_pool(scene->scene, "streaming mode needs a scene without a pool");
     scene->scene.instances.reserve(desc->instance_count);

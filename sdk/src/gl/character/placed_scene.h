@@ -186,6 +186,9 @@ struct Placement {
   std::uint32_t pose_call = 0;   // the last call of set_poses that named the instance
 };
 
+// A longer fade would have steps that the shaders cannot represent.
+inline constexpr std::uint32_t max_fade_updates = NOOK_HIDDEN_STEPS;
+
 // The streaming mode of a scene (nook_streaming.h).
 struct Streaming {
   bool is_used = false;
@@ -295,7 +298,7 @@ class PlacedScene {
     drop_within(chunks, budget, [](const Chunk& chunk) { return chunk.living == 0; });
     drop_within(models, budget, [](const Model& model) { return model.users == 0; });
   }
-  // Returns how much of the AO of an instance is still hidden, in the steps of NOOK_RECORD_HIDDEN_STEPS.
+  // Returns how much of the AO of an instance is still hidden, in the steps of NOOK_HIDDEN_STEPS.
   std::uint32_t hidden_steps(std::uint32_t slot) const {
     const std::uint32_t fading = placements[slot].fading;
     return fading == 0 ? 0 : std::max(fading * NOOK_HIDDEN_STEPS / streaming.fade_updates, 1u);
