@@ -22,15 +22,20 @@ bool nook_is_in_body(vec3 position) {
   return false;
 }
 
+// Returns the direction in which the camera looks at a surface.
+vec3 nook_look_direction(vec3 position) {
+  return nook_spread.y != 0.0 ? vec3(0.0, 0.0, -1.0) : normalize(position);
+}
+
 // True if the ray to the surface passes through the middle of a body, and the surface is behind the body.
 bool nook_shows_through_body(vec3 position) {
   vec3 eye = nook_spread.y != 0.0 ? vec3(position.xy, 0.0) : vec3(0.0);
-  vec3 direction = normalize(position - eye);
+  vec3 direction = nook_look_direction(position);
   for (int i = 0; i < nook_body_count; ++i) {
     vec4 body = nook_body_spheres[2 * i], middle = nook_body_spheres[2 * i + 1];
     vec3 to_middle = middle.xyz - eye;
     float along = dot(to_middle, direction);
-    bool hits = along > 0.0 && dot(to_middle, to_middle) - along * along < middle.w * middle.w;
+    bool hits = along > 0.0 && length(to_middle - along * direction) < middle.w;
     if (hits && distance(eye, body.xyz) > 1.5 * body.w && dot(position - body.xyz, direction) > body.w) return true;
   }
   return false;
@@ -39,7 +44,7 @@ bool nook_shows_through_body(vec3 position) {
 bool nook_is_counted(ivec2 pixel, vec3 position, vec3 normal) {
   if (nook_question == NOOK_BODIES_SHOW_THROUGH) return nook_shows_through_body(position);
   if (nook_question == NOOK_BODIES_FAR_ENOUGH) return length(position) > nook_watched_light.w;
-  if (nook_question == NOOK_BODIES_LIT) return dot(normal, nook_watched_light.xyz) > 0.05;
+  if (nook_question == NOOK_BODIES_LIT) return dot(normal, nook_watched_light.xyz) > 0.0;
   if (nook_question == NOOK_BODIES_SURFACE) return true;
   if (!nook_may_be_body(pixel)) return false;
   return nook_question == NOOK_BODIES_MASKED || nook_is_in_body(position);
@@ -48,13 +53,14 @@ bool nook_is_counted(ivec2 pixel, vec3 position, vec3 normal) {
 void main() {
   ivec2 pixel = ivec2(gl_FragCoord.xy) - nook_origin;
   float depth = nook_screen_depth(pixel);
+  // The sky does not count: a body beyond the far plane does not hide it.
   bool there = depth != nook_no_surface;
-  // A body should hide the sky, too.
-  if (!there) depth = 1.0e6;
-  vec3 position = nook_position(nook_screen_rays, vec2(pixel), depth);
+  vec3 position = nook_position(nook_screen_rays, vec2(pixel), there ? depth : 1.0);
   // At the edge of a surface, the normal is wrong, but these pixels are few.
   vec3 normal = normalize(cross(dFdx(position), dFdy(position)));
-  if (!there && nook_question != NOOK_BODIES_SHOW_THROUGH) discard;
+  // A projection may mirror the picture.
+  if (dot(normal, nook_look_direction(position)) > 0.0) normal = -normal;
+  if (!there) discard;
   if (!nook_is_counted(pixel, position, normal)) discard;
   nook_out = vec4(0.0);
 }

@@ -95,7 +95,12 @@ struct WatchFixture : NnaoFixture {
   }
 
   // The lines that a new pass adds to the log.
-  std::vector<std::string> lines_of(const DarkenedFrame& frame, int frames = 20) {
+  std::vector<std::string> lines_of(const DarkenedFrame& frame) {
+    // More than the frames that must look wrong one after another (body_watch.cpp).
+    const bool has_mask = frame.gbuffer_ao >= NOOK_GBUFFER_AO_REPLACE;
+    return lines_of(frame, frame.light_degrees != 0 ? 130 : has_mask ? 20 : 70);
+  }
+  std::vector<std::string> lines_of(const DarkenedFrame& frame, int frames) {
     nook_world_desc desc = world_desc();
     desc.coloured = frame.light_degrees != 0;
     nook_world pass = nullptr;

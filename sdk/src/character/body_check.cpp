@@ -22,7 +22,7 @@ struct DeepLimit {
 };
 DeepLimit deep_limit(const CharacterModel& model) {
   const float radius = model.bounding_radius, of_people = 0.3f * radius,
-              of_large_bodies = std::max(0.1f * radius, 0.4f);
+              of_large_bodies = std::max(0.1f * radius, 0.6f);
   return of_large_bodies < of_people ? DeepLimit{of_large_bodies, 0.015f} : DeepLimit{of_people, 0.05f};
 }
 
@@ -127,7 +127,10 @@ GroundFinding check_ground(const Instance& instance) noexcept {
   GroundFinding finding{found.share_deep > limit || found.share_below > 0.4f, false, found.share_below,
                         -found.lowest};
   finding.offset = given.offset;
-  finding.floats = has_bones(instance) && found.lowest > found.highest - found.lowest;
+  // A body that lies down is not as tall as it is long.
+  const float size = std::max(found.highest - found.lowest,
+                              instance.model->model.bounding_radius * instance.input.largest_scale());
+  finding.floats = has_bones(instance) && found.lowest > size;
   if (finding.is_wrong || finding.floats) find_mistake(instance, !finding.is_wrong, finding);
   if (finding.floats) finding.is_wrong = finding.mistake != GroundMistake::height;
   return finding;
@@ -136,6 +139,8 @@ GroundFinding check_ground(const Instance& instance) noexcept {
 const Occluder* occluder_around(const Scene& scene, const Instance& instance) noexcept {
   const Sphere& body = instance.input.bound;
   if (instance.plan.is_far) return nullptr;  // its occluders are of an earlier update
+  // The host hides a body with matrices of zeros.
+  if (!(instance.input.largest_scale() > 2e-6f)) return nullptr;
   for (const std::uint32_t slot : instance.plan.occluders) {
     if (slot >= scene.occluders.size()) continue;  // of an earlier update
     const Occluder& occluder = scene.occluders[slot];

@@ -30,7 +30,7 @@ struct GroundFinding {
 // A ground is wrong if more than 5 % of the body is more than 0.3 bounding radii below it. For a human, this
 // depth reaches the middle of the shin. Feet that sink in, lower steps of stairs and bodies that lie down do
 // not reach as deep. For a body that is larger than people, the steps of stairs are as high as for people. So
-// its ground is wrong if more than 1.5 % of the body is deeper than 0.1 radii and than 0.4 m. A ground is
+// its ground is wrong if more than 1.5 % of the body is deeper than 0.1 radii and than 0.6 m. A ground is
 // also wrong if more than 40 % of the body is below it, for example if the plane stands upright in the body.
 // If only the GPU has the bones, the centre of the bound must be deeper than 0.3 of the bound's radius. The
 // instance must have a ground.

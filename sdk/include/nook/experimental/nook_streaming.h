@@ -1,6 +1,6 @@
-/* Streaming: models come and go while frames run, and no frame waits for them. Without streaming,
- * nook_gl_scene_prepare and nook_gl_scene_update upload the data of a new model at once, which takes
- * milliseconds for a large one.
+/* Lets models and clips come and go while frames run, so that no frame waits for them. Without this
+ * streaming mode, nook_gl_scene_prepare and nook_gl_scene_update upload the data of a new model at once,
+ * which takes milliseconds for a large one.
  *
  * Load models and clips on any thread (nook_model_load, nook_clips_load). Put the scene into streaming mode
  * once, while your game loads. Then call these each frame on the context thread:
@@ -12,8 +12,8 @@
  * gives a view of ones, and nook_gl_scene_read and nook_gl_scene_write read ones. When its model and clips
  * are uploaded, the next update evaluates the instance and gives it another view. So compare
  * nook_gl_stream_info.generation with its last value, and ask for the views again if it changed. Until you
- * do, your old view still shows ones. nook_gl_scene_read_pool tells the views of many instances, with a
- * generation for each (nook_gl_poses.h; is_near is 0 for a pending instance).
+ * do, your old view still shows ones. nook_gl_scene_read_pool returns the views of many instances, with
+ * a generation for each (nook_gl_poses.h; is_near is 0 for a pending instance).
  *
  * No call waits for the GPU. They query OpenGL only if nook_gl_desc.state_mode or nook_gl_desc.debug requires
  * it. So without nook_gl_desc.debug, only your own glGetError tells you that OpenGL has no memory for an

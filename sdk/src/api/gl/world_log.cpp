@@ -36,8 +36,8 @@ const char* view_mistake(const float (&view)[16], Vec3 camera) {
   if (is_identity(view)) return "it is the identity";
   if (is_near(translation_of(view), camera)) return "it is the matrix from view space to world space";
   const float ratio = dot(eye, camera) / dot(camera, camera);
-  const bool is_other_unit = ratio > 10 || ratio < 0.1f;
-  if (ratio > 0 && is_other_unit && is_near(eye, ratio * camera)) return "it has another unit";
+  const bool is_other_unit = std::abs(ratio - 100) < 1 || std::abs(100 * ratio - 1) < 0.01f;
+  if (is_other_unit && is_near(eye, ratio * camera)) return "it has another unit";
   return nullptr;
 }
 
@@ -71,16 +71,20 @@ void log_cone(const Context& context, WorldReports& reports, float degrees) {
               double(degrees), double(degrees) * 57.29578);
 }
 
-const Instance* instance_on_ground(const Scene& scene) {
-  const auto found =
-      std::find_if(scene.instances.begin(), scene.instances.end(),
-                   [](const Instance& instance) { return instance.id && instance.input.has_ground; });
-  return found == scene.instances.end() ? nullptr : &*found;
+// Returns the instance from whose ground the light rises most. Null: no instance has a ground.
+const Instance* most_lit(const Scene& scene, Vec3 axis) {
+  const Instance* most = nullptr;
+  for (const Instance& instance : scene.instances) {
+    if (!instance.id || !instance.input.has_ground) continue;
+    if (!most || dot(axis, instance.input.ground.normal) > dot(axis, most->input.ground.normal))
+      most = &instance;
+  }
+  return most;
 }
 
 void log_axis(const Context& context, WorldReports& reports, Vec3 axis, const Scene* scene) {
   if (reports.axis || reports.axis_was_above || !scene) return;
-  const Instance* const instance = instance_on_ground(*scene);
+  const Instance* const instance = most_lit(*scene, axis);
   if (!instance) return;
   const float sine = dot(axis, instance->input.ground.normal);
   // A lamp on the floor may be at the height of the horizon.
@@ -90,8 +94,9 @@ void log_axis(const Context& context, WorldReports& reports, Vec3 axis, const Sc
   reports.axis = true;
   context.log(
       NOOK_LOG_WARNING,
-      "nook_world_render: desc.light_axis points below the ground of instance %u, so the light comes "
-      "from under the floor (got %g %g %g); it is the direction towards the light: negate it if yours "
+      "nook_world_render: desc.light_axis points below the ground of all instances, such as %u, so the "
+      "light comes from under the floor (got %g %g %g); it is the direction towards the light: negate it if "
+      "yours "
       "is the direction in which the light shines. While a sun is below the horizon, set "
       "desc.light_degrees to 0",
       instance->id, double(axis.x), double(axis.y), double(axis.z));

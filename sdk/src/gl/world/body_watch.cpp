@@ -156,6 +156,8 @@ WatchedBodies bodies_without(const Mistake& mistake, const WorldFrame& frame, co
   each_group(groups, [&](const ReachingGroup& group) {
     // Skin may be a little outside of the capsules.
     const Ball around = placed(group.centre, 1.2f * group.radius);
+    // A body that is enlarged around the camera would contain all surfaces.
+    if (factor > 1 && length(around.centre) < around.radius) return;
     if (world::covered_tiles(grid, around.centre, around.radius).empty) return;
     const Ball middle = middle_of(group);
     nearest.add(around, placed(middle.centre, middle.radius));
@@ -188,9 +190,14 @@ bool is_identity(const float* view) {
   return true;
 }
 
-// The number of frames, one after another, that must look wrong. A cut may show a frame of another camera.
+// The number of frames, one after another, that must look wrong. Without a mask, the bodies may be absent
+// from depth for a while, for example if they are drawn later and jump, or if their meshes are still loading.
 // With a mask, each mistake is tried twice before.
-constexpr int least_wrong_frames = 3, least_masked_frames = 2 * int(std::size(mistakes)) + 2;
+constexpr int least_wrong_frames = 60, least_masked_frames = 2 * int(std::size(mistakes)) + 2;
+// A camera may look at the shadow side of a wall for a while.
+constexpr int least_unlit_frames = 120;
+// The number of frames after which bodies without a mask are surely where depth shows them.
+constexpr int enough_right_frames = 10;
 // The number of frames in which a mistake must explain the mask.
 constexpr int least_explained_frames = 2;
 
@@ -203,7 +210,7 @@ BodyWatch::BodyWatch(Device& device)
 
 bool BodyWatch::asks(int question) const {
   if (question == NOOK_BODIES_LIT) return watched_.has_cone && !light_known_;
-  if (question == NOOK_BODIES_SURFACE) return !light_known_ || !bodies_known_;
+  if (question == NOOK_BODIES_SURFACE) return (watched_.has_cone && !light_known_) || !bodies_known_;
   if (question == NOOK_BODIES_FAR_ENOUGH && watched_.smallest_radius == 0) return false;
   // Without a mask, bodies of another place may lie on surfaces by chance.
   if (question == NOOK_BODIES_FOUND_OTHERWISE && !watched_.has_mask) return false;
@@ -211,7 +218,8 @@ bool BodyWatch::asks(int question) const {
 }
 
 bool BodyWatch::begin_frame(const Device& device, const WorldFrame& frame, const ReachingGroups& groups) {
-  if ((bodies_known_ && light_known_) || !read(device)) return false;
+  const bool is_done = bodies_known_ && (light_known_ || !frame.cone);
+  if (is_done || !read(device)) return false;
   if (is_watching_) judge(device);
   is_watching_ = true;
   watch(frame, groups);
@@ -287,7 +295,9 @@ void BodyWatch::judge(const Device& device) {
 bool BodyWatch::is_explained() const {
   const std::uint64_t masked = pixels(NOOK_BODIES_MASKED), found = pixels(NOOK_BODIES_FOUND),
                       otherwise = pixels(NOOK_BODIES_FOUND_OTHERWISE);
-  return target_ == GL_SAMPLES_PASSED && 8 * found < masked && 2 * otherwise > masked &&
+  // If there are more bodies than are compared, the mask shows bodies that are not found.
+  const bool has_all = watched_.given.count < NOOK_WATCHED_BODIES;
+  return target_ == GL_SAMPLES_PASSED && has_all && 8 * found < masked && 2 * otherwise > masked &&
          otherwise > 8 * found;
 }
 
@@ -296,9 +306,11 @@ BodyWatch::Finding BodyWatch::finding() const {
   const std::uint64_t masked = pixels(NOOK_BODIES_MASKED), found = pixels(NOOK_BODIES_FOUND),
                       through = pixels(NOOK_BODIES_SHOW_THROUGH);
   // Bodies that are only drawn after the pass are not in the depth, but the floor at their feet is found.
-  if (through > 0 && (found == 0 || (watched_.has_mask && through > 4 * found)))
+  // With a mask, bodies may be seen at least in part.
+  const bool is_through = watched_.has_mask ? masked > 0 && through > 4 * found : found == 0;
+  if (through > 0 && is_through)
     return {"surfaces are seen where bodies in front of them should hide them", general_advice()};
-  if (watched_.has_mask && watched_.has_identity && masked > 0 && found == 0)
+  if (watched_.has_mask && watched_.has_identity && watched_.given.count > 0 && masked > 0 && found == 0)
     return {"no surface of the mask is near a body", general_advice()};
   if (watched_.smallest_radius > 0 && found == 0 &&
       20 * pixels(NOOK_BODIES_FAR_ENOUGH) < pixels(NOOK_BODIES_SURFACE))
@@ -326,18 +338,18 @@ void BodyWatch::report(const Device& device, const Finding& found) {
 
 void BodyWatch::judge_bodies(const Device& device) {
   if (!watched_.has_bodies) return;
+  // Without a mask, a body may be found by chance. With it, most of the mask must be bodies.
+  bodies_known_ = watched_.has_mask && 2 * pixels(NOOK_BODIES_FOUND) > pixels(NOOK_BODIES_MASKED);
+  if (bodies_known_) return;
   const Mistake& mistake = mistakes[watched_.mistake];
-  if (is_explained()) {
-    if (++explained_frames_[watched_.mistake] >= least_explained_frames)
-      report(device, {mistake.what, mistake.advice});
-    return;
-  }
+  int& explained_frames = explained_frames_[watched_.mistake];
+  explained_frames = is_explained() ? explained_frames + 1 : 0;
+  if (explained_frames >= least_explained_frames) report(device, {mistake.what, mistake.advice});
+  if (explained_frames > 0) return;
   const Finding found = finding();
   if (!found.what) {
     wrong_frames_ = 0;
-    // Without a mask, a body may be found by chance. With it, most of the mask must be bodies.
-    const bool is_sure = watched_.has_mask && 2 * pixels(NOOK_BODIES_FOUND) > pixels(NOOK_BODIES_MASKED);
-    bodies_known_ = is_sure || (pixels(NOOK_BODIES_FOUND) > 0 && ++right_frames_ >= 100);
+    bodies_known_ = pixels(NOOK_BODIES_FOUND) > 0 && ++right_frames_ >= enough_right_frames;
     return;
   }
   if (++wrong_frames_ >= (watched_.has_mask ? least_masked_frames : least_wrong_frames))
@@ -351,7 +363,7 @@ void BodyWatch::judge_light(const Device& device) {
     light_known_ = true;
     return;
   }
-  if (++unlit_frames_ < least_wrong_frames) return;
+  if (++unlit_frames_ < least_unlit_frames) return;
   light_known_ = true;
   const Vec3 axis = watched_.light_ws;
   device.context.log(NOOK_LOG_WARNING,
