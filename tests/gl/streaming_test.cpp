@@ -152,24 +152,26 @@ TEST_CASE("the AO of a new instance fades in over the stated number of updates")
     CrowdOptions options;
     options.camera = true;
     options.lod_max_interval = 50;  // an instance that fades is evaluated all the same
+    options.spacing = 40;           // metres; far from the camera, instances wait for their turn
     Crowd crowd(host.handle, {model}, {5}, options);
     light(crowd, 2);
     nook_gl gl = create_gl(host.handle, platform::Context::loader, &context, tier);
     constexpr std::uint32_t fade = 4;
     NOOK_OK_OR_FAIL(set_streaming(gl, crowd.scene, fade));
     prepare_all(gl, crowd.scene);
-    std::vector<std::vector<float>> ao, directional;
+    std::vector<std::vector<float>> ao, directional, far;
     for (std::uint32_t update = 0; update <= fade; ++update) {
       NOOK_OK_OR_FAIL(nook_gl_scene_update(gl, crowd.scene));
       ao.push_back(gpu_ao(gl, crowd, model, 1));
       directional.push_back(directional_ao(gl, crowd, model, 2));
+      far.push_back(gpu_ao(gl, crowd, model, crowd.ids.size() - 1));
     }
     CHECK(ao[fade - 1] == ao[fade]);
     CHECK_FALSE(all_ones(ao[fade]));
     for (std::uint32_t update = 0; update < fade; ++update) {
       // Shares have steps of 1 / 2047.
       const float hidden = 1 - float(update + 1) / fade;
-      for (const auto* values : {&ao, &directional})
+      for (const auto* values : {&ao, &directional, &far})
         for (std::size_t v = 0; v < (*values)[update].size(); ++v) {
           const float open = (*values)[fade][v];
           REQUIRE(std::abs((*values)[update][v] - (open + hidden * (1 - open))) < 1.0f / 2047 + 1e-6f);

@@ -315,7 +315,7 @@ TEST_CASE("world: a cone in radians and a light from under the ground are logged
   // The sun, and a light of 10 degrees.
   for (const float degrees : {0.53f, 10.0f})
     check_one(lines(up, degrees / 57.29578f), "narrower than any sun", "multiply by 57.3");
-  check_one(lines(down, 5), "points below the ground of instance", "negate it");
+  check_one(lines(down, 5), "points below the ground of all instances", "negate it");
   check_none(lines(down, 0));
   // A lamp at the height of the floor.
   check_none(lines({0, -0.02f, std::sqrt(1 - 0.0004f)}, 5));

@@ -12,8 +12,10 @@
  * gives a view of ones, and nook_gl_scene_read and nook_gl_scene_write read ones. When its model and clips
  * are uploaded, the next update evaluates the instance and gives it another view. So compare
  * nook_gl_stream_info.generation with its last value, and ask for the views again if it changed. Until you
- * do, your old view still shows ones. nook_gl_scene_read_pool returns the views of many instances, with
- * a generation for each (nook_gl_poses.h; is_near is 0 for a pending instance).
+ * do, your old view still shows ones. But nook_scene_set_model ends a view: after the next
+ * nook_gl_scene_prepare_within, do not draw with it. An instance that is ready and gets other clips keeps its
+ * AO, and darkens no other instance, until the clips are uploaded. nook_gl_scene_read_pool returns the views
+ * of many instances, with a generation for each (nook_gl_poses.h; is_near is 0 for a pending instance).
  *
  * No call waits for the GPU. They query OpenGL only if nook_gl_desc.state_mode or nook_gl_desc.debug requires
  * it. So without nook_gl_desc.debug, only your own glGetError tells you that OpenGL has no memory for an

@@ -32,7 +32,11 @@ nook_result nook_gl_scene_prepare_within(nook_gl gl, nook_scene scene, uint32_t 
                     "the scene is not in streaming mode with this nook_gl; first call "
                     "nook_gl_scene_set_streaming, or call nook_gl_scene_prepare");
     nook_gl_stream_info known{};
-    gl->guarded([&] { known.pending_count = gl->characters->prepare_within(api::handle_of(scene), budget); });
+    gl::StreamLeft left;
+    gl->guarded([&] { left = gl->characters->prepare_within(api::handle_of(scene), budget); });
+    known.pending_count = left.pending;
+    // A view that ended with this call must be asked for again before the next update.
+    if (left.has_new_views) ++scene->scene.pool.generation;
     known.generation = scene->scene.pool.generation;
     if (info) write_info(info, known);
   });

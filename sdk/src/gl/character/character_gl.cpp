@@ -46,10 +46,10 @@ void CharacterGl::set_streaming(const SceneHandle& handle, std::uint32_t fade_up
   prepare_by(handle, [&] { tier_->set_streaming(*handle.scene, fade_updates); });
 }
 
-std::uint32_t CharacterGl::prepare_within(const SceneHandle& handle, const Budget& budget) {
-  std::uint32_t pending = 0;
-  prepare_by(handle, [&] { pending = tier_->prepare_within(*handle.scene, budget); });
-  return pending;
+StreamLeft CharacterGl::prepare_within(const SceneHandle& handle, const Budget& budget) {
+  StreamLeft left;
+  prepare_by(handle, [&] { left = tier_->prepare_within(*handle.scene, budget); });
+  return left;
 }
 
 void CharacterGl::update(const SceneHandle& handle) {

@@ -32,8 +32,7 @@ class CharacterGl {
   void update(const SceneHandle& handle);
   void set_streaming(const SceneHandle& handle, std::uint32_t fade_updates);
   bool is_streaming(const Scene& scene) const { return tier_->is_streaming(scene); }
-  // Returns how many instances are still pending.
-  std::uint32_t prepare_within(const SceneHandle& handle, const Budget& budget);
+  StreamLeft prepare_within(const SceneHandle& handle, const Budget& budget);
   void set_poses(const SceneHandle& handle, const PoseBatch& batch);
   void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const;
   VertexValues place(const Scene& scene, nook_instance_id instance) const;

@@ -35,8 +35,11 @@ void decide(Device& device, ComputeScene& placed, Scene& scene) {
   resolve_casters(scene, [&](std::uint32_t slot) { return placed.placements[slot].evaluated; });
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
     if (scene.instances[slot].plan.due) placed.placements[slot].evaluated = false;
-  for (Instance& instance : scene.instances)
-    if (instance.light().count > 0 && instance.plan.due) prepare_light(scene, instance);
+  for (Instance& instance : scene.instances) {
+    // A pending instance is not due, but the host's shader reads its light.
+    const bool is_pending = placed.streaming.is_used && instance.plan.is_far;
+    if (instance.light().count > 0 && (instance.plan.due || is_pending)) prepare_light(scene, instance);
+  }
 }
 
 std::uint64_t count_evaluations(const ComputeScene& placed, const Scene& scene, std::uint32_t slot) {
@@ -132,14 +135,14 @@ bool ComputeTier::is_streaming(const Scene& scene) const {
   return placed && placed->streaming.is_used;
 }
 
-std::uint32_t ComputeTier::prepare_within(const Scene& scene, const Budget& budget) {
+StreamLeft ComputeTier::prepare_within(const Scene& scene, const Budget& budget) {
   const Device::Unchecked unchecked(device_);
   ComputeScene& placed = *placed_scene(scenes_, scene);
   placed.follow_edits(device_);
   placed.drop_unused_within(models_, budget);
   placed.place_within(device_, models_, budget);
   placed.place_clips(device_, budget);
-  return placed.count_pending();
+  return {placed.count_pending(), placed.streaming.has_new_views};
 }
 
 void ComputeTier::prepare(const Scene& scene) {

@@ -18,7 +18,7 @@ class ComputeTier final : public Tier {
   void read_pose(const Scene& scene, nook_instance_id instance, std::span<Mat3x4> bones) const override;
   void set_streaming(const Scene& scene, std::uint32_t fade_updates) override;
   bool is_streaming(const Scene& scene) const override;
-  std::uint32_t prepare_within(const Scene& scene, const Budget& budget) override;
+  StreamLeft prepare_within(const Scene& scene, const Budget& budget) override;
   VertexValues place(const Scene& scene, nook_instance_id instance) const override;
   PooledView pooled_view(const Scene& scene, nook_instance_id instance) const override;
   PoolCount pool_count(const Scene& scene) const override;

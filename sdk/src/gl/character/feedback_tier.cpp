@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "sdk/src/character/instance_light.h"
 #include "sdk/src/character/instance_views.h"
 #include "sdk/src/gl/character/pending_marks.h"
 #include "sdk/src/gl/shader_program.h"
@@ -107,13 +108,13 @@ bool FeedbackTier::is_streaming(const Scene& scene) const {
   return placed && placed->streaming.is_used;
 }
 
-std::uint32_t FeedbackTier::prepare_within(const Scene& scene, const Budget& budget) {
+StreamLeft FeedbackTier::prepare_within(const Scene& scene, const Budget& budget) {
   const Device::Unchecked unchecked(device_);
   FeedbackScene& placed = *placed_scene(scenes_, scene);
   placed.follow_edits(device_);
   placed.drop_unused_within(models_, budget);
   placed.place_within(device_, models_, budget);
-  return placed.streaming.pending;
+  return {placed.streaming.pending, placed.streaming.has_new_views};
 }
 
 void FeedbackTier::prepare(const Scene& scene) {
@@ -163,6 +164,10 @@ void FeedbackTier::update(Scene& scene) {
   placed.notice_lights();
   if (placed.streaming.is_used && placed.lacks_light_buffers()) placed.make_light_buffers(device_);
   nook::update(scene);
+  // A pending instance is not due, but the host's shader reads its light.
+  if (placed.streaming.is_used)
+    for (Instance& instance : scene.instances)
+      if (instance.plan.is_far && instance.light().count > 0) prepare_light(scene, instance);
   // If an upload fails, the next update uploads these instances again.
   for (std::size_t slot = 0; slot < placed.placements.size(); ++slot)
     placed.placements[slot].evaluated &= !scene.instances[slot].plan.due;

@@ -127,6 +127,7 @@ class ModelUse {
     if (model_) --model_->users;
     model_ = model;
   }
+  ModelData* get() const noexcept { return model_; }
 
  private:
   ModelData* model_ = nullptr;
@@ -193,8 +194,9 @@ inline constexpr std::uint32_t max_fade_updates = NOOK_HIDDEN_STEPS;
 struct Streaming {
   bool is_used = false;
   std::uint32_t fade_updates = 0;
-  std::uint32_t pending = 0;  // instances without a chunk
-  std::size_t next = 0;       // no slot before it is pending
+  std::uint32_t pending = 0;   // instances without a chunk
+  std::size_t next = 0;        // no slot before it is pending
+  bool has_new_views = false;  // the next update gives instances another generation
   ModelUse uploading;
 };
 
@@ -238,12 +240,19 @@ class PlacedScene {
   // The next functions are for streaming mode.
 
   void begin_streaming(std::uint32_t fade_updates) noexcept {
-    // Instances that have a place keep it.
+    // Instances that have a place keep it, unless a preparation failed after it gave places.
+    if (!streaming.is_used && !prepared_) {
+      for (Placement<Chunk>& placement : placements) placement = {};
+      chunks.clear();
+    }
     if (!streaming.is_used) prepared_ = false;
     streaming.is_used = true;
     streaming.fade_updates = fade_updates;
-    for (Placement<Chunk>& placement : placements)
-      placement.fading = std::min(placement.fading, longest_fade());
+    for (Placement<Chunk>& placement : placements) {
+      if (placement.fading <= longest_fade()) continue;
+      placement.fading = longest_fade();
+      placement.evaluated = false;  // otherwise the AO might stay partly hidden
+    }
   }
   // Follows the edits of the scene: frees the places of instances that were removed, and notes new instances
   // as pending. Throws Failure.
@@ -254,6 +263,7 @@ class PlacedScene {
     lights.resize(scene->instances.size());
     streaming.pending = 0;
     streaming.next = 0;
+    streaming.has_new_views = false;
     for (std::size_t slot = 0; slot < placements.size(); ++slot) {
       Placement<Chunk>& placement = placements[slot];
       if (placement.chunk && !placement.is_new) continue;
@@ -263,6 +273,7 @@ class PlacedScene {
       const std::uint32_t key = pending_key(*instance.model);
       if (!placement.chunk && placement.place != key) placement.generation = 0;  // another view
       if (!placement.chunk) placement.place = key;
+      streaming.has_new_views |= placement.generation == 0;
       const bool is_lit = instance.light().lobes.size() > 0;
       if (is_lit) lights.make(device);
       need_ones(device, instance.model->model.file_to_welded.size() * (is_lit ? 3 : 1));
@@ -275,6 +286,11 @@ class PlacedScene {
   template <class MakeChunk>
   bool place_next(Device& device, List<Model>& models, const MakeChunk& make_chunk) {
     if (streaming.pending == 0) return false;
+    // Otherwise, new instances in earlier slots might delay a large model for ever.
+    if (Model* const model = static_cast<Model*>(streaming.uploading.get()); model && !model->is_uploaded()) {
+      model->upload_piece(device);
+      return true;
+    }
     while (!is_pending(placements[streaming.next])) ++streaming.next;
     const auto slot = static_cast<std::uint32_t>(streaming.next);
     Model& model = known_model(models, scene->instances[slot].model);
@@ -316,11 +332,13 @@ class PlacedScene {
   }
   // Counts down the fades of instances that this update evaluates, and shows instances their new AO.
   void finish_streamed(Scene& scene_to_change) noexcept {
+    streaming.has_new_views = false;
     for (std::size_t slot = 0; slot < placements.size(); ++slot) {
       Placement<Chunk>& placement = placements[slot];
       if (placement.generation == 0 && placement.id) placement.generation = ++scene_to_change.pool.generation;
       if (!(placement.fading || placement.is_new) || !placement.evaluated) continue;
-      if (placement.fading > 0) --placement.fading;
+      // The next update must show the whole AO, even if it would not evaluate the instance otherwise.
+      if (placement.fading > 0 && --placement.fading == 0) placement.evaluated = false;
       if (!placement.is_new) continue;
       placement.is_new = false;
       placement.generation = ++scene_to_change.pool.generation;

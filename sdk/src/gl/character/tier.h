@@ -40,6 +40,12 @@ struct PoolTablePlace {
   std::uint32_t ao_buffers = 0;  // number of buffers with the AO of a model's near instances
 };
 
+// What a scene in streaming mode still has to do.
+struct StreamLeft {
+  std::uint32_t pending = 0;   // instances
+  bool has_new_views = false;  // the next update gives an instance another generation
+};
+
 struct LightPlace {
   VertexValues directional_ao;
   GLuint texture = 0;  // the texture that contains the lights
@@ -79,9 +85,8 @@ class Tier {
   // Puts a scene into streaming mode, and compiles the programs that it may need. Throws Failure.
   virtual void set_streaming(const Scene& scene, std::uint32_t fade_updates) = 0;
   virtual bool is_streaming(const Scene& scene) const = 0;
-  // Prepares pending instances of a scene in streaming mode as long as there is time, and returns how many
-  // are left. Throws Failure.
-  virtual std::uint32_t prepare_within(const Scene& scene, const Budget& budget) = 0;
+  // Prepares pending instances of a scene in streaming mode as long as there is time. Throws Failure.
+  virtual StreamLeft prepare_within(const Scene& scene, const Budget& budget) = 0;
 
   // Returns where the AO of an instance is. Throws Failure if the instance has no place.
   virtual VertexValues place(const Scene& scene, nook_instance_id instance) const = 0;
