@@ -67,7 +67,8 @@ NOOK_API nook_result nook_gl_scene_set_streaming(nook_gl gl, nook_scene scene,
 
 /* Uploads models and clips of pending instances in small pieces, and releases those that no instance uses any
  * more, until `budget_us` microseconds are over. It does at least one piece of work, so 0 also makes
- * progress. It may exceed the budget by the time of one piece, and of a pass over the scene's instances if
+ * progress. The arrays of all pending instances of a model are one piece, so add large groups over several
+ * frames. It may exceed the budget by the time of one piece, and of a pass over the scene's instances if
  * you added or removed some. `info` may be NULL. Context thread. Errors: INVALID_ARGUMENT (also: the scene is
  * not in streaming mode), GL, UNSUPPORTED (a model is too large for this OpenGL), OUT_OF_MEMORY. After an
  * error, the next call goes on. */
