@@ -34,8 +34,8 @@ TEST_CASE("every shader of the tree is counted") {
   const fs::path root = NOOK_SOURCE_ROOT;
   for (const char* folder : {"shaders", "bakers/lab/nnao/shaders"})
     for (const auto& file : fs::recursive_directory_iterator(root / folder)) {
-      // The vertices of the triangle over the screen cost nothing beside its pixels. The others are drawn
-      // only with nook_gl_desc.debug.
+      // The vertices of the triangle over the screen cost nothing beside its pixels, and nothing.frag has no
+      // pixels. The others are drawn only with nook_gl_desc.debug.
       const std::set<std::string> left_out{"screen.vert", "nothing.frag", "surface.frag", "bodies.frag"};
       if (!is_stage(file.path()) || left_out.count(file.path().filename().string())) continue;
       const std::string path = fs::relative(file.path(), root).generic_string();
