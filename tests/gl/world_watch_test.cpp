@@ -183,7 +183,8 @@ TEST_CASE("world watch: the identity or the inverse in place of the view is logg
             "set it to the inverse");
 }
 
-TEST_CASE("world watch: a view of another frame or of another scene is logged if bodies float") {
+TEST_CASE("world watch: a view of another frame or of another scene is logged if bodies float",
+          "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   WatchFixture fixture(context);
   const View view = turned_view();
@@ -193,8 +194,8 @@ TEST_CASE("world watch: a view of another frame or of another scene is logged if
             "surfaces are seen where bodies", "the frame that drew the depth");
 }
 
-TEST_CASE(
-    "world watch: capsules, a view or depth in centimetres are logged once, with the unit that differs") {
+TEST_CASE("world watch: capsules, a view or depth in centimetres are logged once, with the unit that differs",
+          "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   if (context.is_es()) return;  // cannot count pixels
   WatchFixture fixture(context);
@@ -256,7 +257,7 @@ DarkenedFrame frame_of(const ScaledCrowd& crowd, const ScreenFrame& screen, cons
 
 }  // namespace
 
-TEST_CASE("world watch: bodies that are larger than everything in view are logged") {
+TEST_CASE("world watch: bodies that are larger than everything in view are logged", "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   WatchFixture fixture(context);
   const ScreenFrame screen = fixture.screen(true);
@@ -321,7 +322,7 @@ TEST_CASE("world: a cone in radians and a light from under the ground are logged
   check_none(lines({0, -0.02f, std::sqrt(1 - 0.0004f)}, 5));
 }
 
-TEST_CASE("world watch: a light that no surface faces is logged once") {
+TEST_CASE("world watch: a light that no surface faces is logged once", "[one-driver]") {
   NOOK_NEED_CONTEXT(context);
   WatchFixture fixture(context);
   const View view = turned_view();
